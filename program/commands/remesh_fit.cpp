@@ -32,9 +32,7 @@ Mesh mesh_of_data(const Indexed_triangle_mesh_3<Kernel>& data, const Source_opti
   if (data.triangles.empty())
     throw Input_error("--method remesh: '" + options.text +
                       "' has points without faces; use --method marching-cubes, or give a mesh");
-  Polygon_soup soup{data.points, {}};
-  for (const auto& triangle : data.triangles) soup.polygons.emplace_back(triangle.begin(), triangle.end());
-  return to_triangle_mesh(std::move(soup), options.text);
+  return to_surface(data, options.text);
 }
 
 /// The greatest distance of vertices with an outcome, or without it, from the data.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Readers of meshes and points. What CGAL reads is read in a child process, where it may crash.
+// Readers of meshes and points.
 #ifndef EQUIAFFINE_PROGRAM_SOURCE_READ_MESH_H
 #define EQUIAFFINE_PROGRAM_SOURCE_READ_MESH_H
 
@@ -11,33 +11,18 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace equiaffine {
 
-/// Points, and polygons of positions in them. A file may hold positions of points that it does not have.
-struct Polygon_soup {
-  std::vector<Kernel::Point_3> points;
-  std::vector<std::vector<std::size_t>> polygons;
-};
-
 /// Throws `Input_error`: "cannot read the mesh 'path': reason; advice".
 [[noreturn]] void fail_to_read_mesh(const std::string& path, const std::string& reason, const std::string& advice);
 
-/// Reads an OBJ or STL file through CGAL, whose readers may crash on a damaged file. Throws `Input_error` for what they
-/// do not understand.
-Polygon_soup read_foreign_soup(const std::string& path);
-
-/// Returns what `make` makes of a file in a child process, where it may crash. Throws `Input_error` if it does.
-Polygon_soup make_in_child(const std::string& path, const std::function<Polygon_soup()>& make);
-
-/// Makes a mesh of what a file holds: faces get triangulated and a common orientation, and equal points become one unless
-/// the surface is closed without. Throws `Input_error` if it is not a mesh with finite coordinates.
-CGAL::Surface_mesh<Kernel::Point_3> to_triangle_mesh(Polygon_soup soup, const std::string& path);
+/// Makes a mesh of the triangles in a file: they get a common orientation, and equal points become one unless the surface
+/// is closed without. Throws `Input_error` if they are no surface, or a coordinate is not finite.
+CGAL::Surface_mesh<Kernel::Point_3> to_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const std::string& path);
 
 /// The triangles of a mesh, turned to a common orientation; as they are if there is none without new points.
 std::vector<std::array<std::uint32_t, 3>> oriented_triangles(const Indexed_triangle_mesh_3<Kernel>& mesh);

@@ -95,7 +95,9 @@ Polygons_of_file polygons_of_file(const std::string& path) {
   std::ifstream file = open_input(path);
   if (has_extension(path, ".ply")) result.attributes = read_PLY_elements(file, path, receiver);
   else if (has_extension(path, ".off")) read_OFF_elements(file, path, receiver);
-  else fail_to_read(path, "its extension is not known", "use one of .ply .off");
+  else if (has_extension(path, ".obj")) read_OBJ_elements(file, path, receiver);
+  else if (has_extension(path, ".stl")) read_STL_elements(file, path, receiver);
+  else fail_to_read(path, "its extension is not known", "use one of .ply .off .obj .stl");
   return result;
 }
 

@@ -38,7 +38,7 @@ struct Polygons_of_file {
 #pragma GCC visibility push(default)
 #endif
 
-/// Reads PLY or OFF, as the extension says.
+/// Reads PLY, OFF, OBJ or STL, as the extension says.
 Polygons_of_file polygons_of_file(const std::string& path);
 
 #ifdef EQUIAFFINE_SHARED
@@ -77,9 +77,10 @@ auto add_polygons(Graph& graph, const Point_map& point_map, const Polygons_of_fi
 
 namespace equiaffine::IO {
 
-/// Adds the mesh in a file, `.ply` or `.off`, to a model of CGAL's MutableFaceGraph with the numbers at its vertices,
-/// and returns the comments of the file. The names and the arguments are those of CGAL::IO::read_polygon_mesh(), which
-/// knows more formats and leaves most numbers out; errors are exceptions here. Polygons stay polygons.
+/// Adds the mesh in a file, `.ply`, `.off`, `.obj` or `.stl`, to a model of CGAL's MutableFaceGraph with the numbers at
+/// its vertices, and returns the comments of the file. The names and the arguments are those of
+/// CGAL::IO::read_polygon_mesh(), which knows more formats and leaves most numbers out; errors are exceptions here.
+/// Polygons stay polygons.
 ///
 /// A CGAL::Surface_mesh gets maps under names: `v:NAME` of double for each column NAME, of Vector_3 for three columns
 /// NAME_x, NAME_y, NAME_z, `v:normal` for nx, ny, nz, and `v:status` of Point_status, so that it has those that

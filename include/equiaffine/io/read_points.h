@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads points, with or without faces, from CSV, XYZ, PLY or OFF, as the name of a file says, with all that came with
-// them, and writes them to CSV with more columns.
+// Reads points, with or without faces, from CSV, XYZ, PLY, OFF, OBJ or STL, as the name of a file says, with all that came
+// with them, and writes them to CSV with more columns.
 #ifndef EQUIAFFINE_IO_READ_POINTS_H
 #define EQUIAFFINE_IO_READ_POINTS_H
 
@@ -59,8 +59,10 @@ struct Csv_cells {
 /// Reads PLY, and returns what comes with the points.
 Vertex_attributes read_PLY_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
 
-/// Reads OFF.
+/// Reads OFF, OBJ or STL.
 void read_OFF_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
+void read_OBJ_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
+void read_STL_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
 
 /// Reads XYZ, and returns what comes with the points.
 Vertex_attributes read_XYZ_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
@@ -126,6 +128,25 @@ Indexed_triangle_mesh_3<Kernel> read_OFF(std::istream& stream, const std::string
   return mesh;
 }
 
+/// Reads OBJ: points and faces, the latter cut into triangles. Normals, textures, colors, lines and groups are left out.
+/// `name` stands for the file in messages. Throws `Input_error` for what is no OBJ file, and for faces with vertices that
+/// do not exist.
+template <class Kernel>
+Indexed_triangle_mesh_3<Kernel> read_OBJ(std::istream& stream, const std::string& name) {
+  Indexed_triangle_mesh_3<Kernel> mesh;
+  internal::read_OBJ_elements(stream, name, internal::receiver_of(mesh));
+  return mesh;
+}
+
+/// Reads STL, binary or text: triangles, whose corners with the same coordinates become one point. Normals are left out.
+/// `name` stands for the file in messages. Throws `Input_error` for what is not a complete file.
+template <class Kernel>
+Indexed_triangle_mesh_3<Kernel> read_STL(std::istream& stream, const std::string& name) {
+  Indexed_triangle_mesh_3<Kernel> mesh;
+  internal::read_STL_elements(stream, name, internal::receiver_of(mesh));
+  return mesh;
+}
+
 /// The comment that points of an XYZ file get whose columns 4 to 6 have no names and are no normals.
 inline constexpr const char* xyz_colors_note = "columns 4 to 6 are colors, not normals, which would have the length 1";
 
@@ -141,15 +162,17 @@ Annotated_mesh_3<Kernel> read_XYZ(std::istream& stream, const std::string& name)
   return result;
 }
 
-/// Reads points in the format that the end of `extension` stands for, `.csv`, `.ply`, `.off` or `.xyz`. `name` stands
-/// for the file in messages. Throws `Input_error` for what is not a complete file of the format.
+/// Reads points in the format that the end of `extension` stands for, `.csv`, `.ply`, `.off`, `.obj`, `.stl` or `.xyz`.
+/// `name` stands for the file in messages. Throws `Input_error` for what is not a complete file of the format.
 template <class Kernel>
 Point_table_3<Kernel> read_points(std::istream& stream, const std::string& name, std::string_view extension) {
   if (has_extension(extension, ".csv")) return read_CSV<Kernel>(stream, name);
   if (has_extension(extension, ".ply")) return {read_PLY<Kernel>(stream, name)};
   if (has_extension(extension, ".off")) return {{read_OFF<Kernel>(stream, name), {}}};
+  if (has_extension(extension, ".obj")) return {{read_OBJ<Kernel>(stream, name), {}}};
+  if (has_extension(extension, ".stl")) return {{read_STL<Kernel>(stream, name), {}}};
   if (has_extension(extension, ".xyz")) return {read_XYZ<Kernel>(stream, name)};
-  internal::fail_to_read(name, "its extension is not known", "use one of .csv .ply .off .xyz");
+  internal::fail_to_read(name, "its extension is not known", "use one of .csv .ply .off .obj .stl .xyz");
 }
 
 /// Reads points from such a file, or from standard input for "-": PLY or OFF if the first word says so, otherwise CSV.
