@@ -22,7 +22,7 @@ struct Engine {
 
   /// The nodes are not used for a spline.
   Isosurface_3<Kernel> (*marching_cubes)(const Level_set&, const std::array<std::size_t, 3>& nodes, Vertex_position);
-  Vertex_attributes (*compute_attributes)(const Level_set&, Points, const Attribute_selection&, Statuses, Estimator);
+  Vertex_attributes (*compute_attributes)(const Level_set&, Points, const Attribute_selection&, Statuses);
   double (*max_distance_to_surface)(const Level_set&, Points, Statuses);
 };
 

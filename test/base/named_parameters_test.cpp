@@ -24,11 +24,11 @@ TEST(Named_parameters, a_parameter_that_is_not_given_has_its_default) {
 }
 
 TEST(Named_parameters, every_parameter_of_a_chain_is_found) {
-  const auto given = parameters::clip(1).facet_sizing(2).number_of_nodes({3, 4, 5}).estimator(6);
+  const auto given = parameters::clip(1).facet_sizing(2).number_of_nodes({3, 4, 5}).comments(6);
   EXPECT_EQ(get_parameter<internal::Clip_tag>(given, 0), 1);
   EXPECT_EQ(get_parameter<internal::Facet_sizing_tag>(given, 0), 2);
   EXPECT_EQ(get_parameter<internal::Number_of_nodes_tag>(given, Nodes{}), (Nodes{3, 4, 5}));
-  EXPECT_EQ(get_parameter<internal::Estimator_tag>(given, 0), 6);
+  EXPECT_EQ(get_parameter<internal::Comments_tag>(given, 0), 6);
 }
 
 TEST(Named_parameters, the_last_one_given_counts) {

@@ -65,7 +65,7 @@ void expect_same_on_all_instruction_sets(const Function& function) {
   for (const Instruction_set set : instruction_sets()) {
     SCOPED_TRACE(int(set));
     const auto attributes = [&](std::span<const Kernel::Point_3> at) {
-      return vectorized::compute_attributes(level_set, at, selection, {}, Estimator::COMPACT, set);
+      return vectorized::compute_attributes(level_set, at, selection, {}, set);
     };
     expect_equal(attributes(p), expected);
     for (std::size_t i = 0; i < 20; ++i) expect_equal(attributes(std::span(p).subspan(i, 1)), expected, i);

@@ -29,14 +29,10 @@
 namespace equiaffine::internal {
 
 /// The structure of the level set at a point of any kernel.
-template <class Traits, class Point, class Parameters>
-auto structure_at(const Traits& traits, const Point& p, Point_status before,
-                  [[maybe_unused]] const Parameters& parameters) {
+template <class Traits, class Point>
+auto structure_at(const Traits& traits, const Point& p, Point_status before) {
   check_coordinates<Point>();
-  const auto q = convert_point<Kernel_of<Traits>>(p);
-  if constexpr (has_parameter<Estimator_tag, Parameters>)
-    return local_structure_at(traits, q, before, parameters::estimator(given_parameter<Estimator_tag>(parameters)));
-  else return local_structure_at(traits, q, before);
+  return local_structure_at(traits, convert_point<Kernel_of<Traits>>(p), before);
 }
 
 /// Fills the maps that are given, for elements with points: vertices of a mesh, or elements of a range. Structures are
@@ -67,8 +63,7 @@ void annotate_elements(Elements&& elements, const Point_of& point_of, const Trai
     }
     structures.resize(places.size());
     parallel_for<ConcurrencyTag>(
-        0, places.size(),
-        [&](std::size_t i) { structures[i] = structure_at(traits, points[i], before[i], parameters); }, 256);
+        0, places.size(), [&](std::size_t i) { structures[i] = structure_at(traits, points[i], before[i]); }, 256);
     for (std::size_t i = 0; i < places.size(); ++i) {
       auto&& element = *places[i];
       put_structure(parameters, element, structures[i], Structure_tags());
@@ -77,8 +72,8 @@ void annotate_elements(Elements&& elements, const Point_of& point_of, const Trai
 }
 
 /// Fills the maps `v:NAME` of a surface mesh with all that is known of its vertices.
-template <class ConcurrencyTag, class Mesh, class Point_of, class Traits, class Parameters>
-void annotate_surface_mesh(Mesh& mesh, const Point_of& point_of, const Traits& traits, const Parameters& parameters) {
+template <class ConcurrencyTag, class Mesh, class Point_of, class Traits>
+void annotate_surface_mesh(Mesh& mesh, const Point_of& point_of, const Traits& traits) {
   using Vertex_index = typename Mesh::Vertex_index;
   check_mesh_for_maps<Mesh>();
   Property_maps<Mesh> maps(mesh);
@@ -86,7 +81,7 @@ void annotate_surface_mesh(Mesh& mesh, const Point_of& point_of, const Traits& t
       0, mesh.num_vertices(), // with removed ones
       [&](std::size_t i) {
         const Vertex_index v{static_cast<typename Vertex_index::size_type>(i)};
-        if (!mesh.is_removed(v)) maps.set(v, structure_at(traits, point_of(v), maps.status(v), parameters));
+        if (!mesh.is_removed(v)) maps.set(v, structure_at(traits, point_of(v), maps.status(v)));
       },
       256);
 }
@@ -120,7 +115,6 @@ namespace equiaffine {
 /// | `vertex_Gaussian_curvature_map` | map of numbers | none | K_e, of CGAL |
 /// | `vertex_principal_curvatures_and_directions_map` | map of structs | none | k_1, k_2 with directions, of CGAL |
 /// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
-/// | `estimator` | Estimator | COMPACT | how the affine structure is computed |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
 /// A CGAL::Surface_mesh without such a map gets `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`,
@@ -146,7 +140,7 @@ void annotate(Graph& graph, const Traits& traits, const Parameters&... given) {
   static_assert(check_coordinates<Point_of_vertices<Graph, Joined>>());
   const auto point_of = [map = vertex_points(graph, parameters)](const auto& v) { return get(map, v); };
   if constexpr (internal::is_surface_mesh<Graph> && !internal::has_maps<Joined>(internal::Structure_tags()))
-    internal::annotate_surface_mesh<ConcurrencyTag>(graph, point_of, traits, parameters);
+    internal::annotate_surface_mesh<ConcurrencyTag>(graph, point_of, traits);
   else internal::annotate_elements<ConcurrencyTag>(vertices_of(graph), point_of, traits, parameters);
 }
 
@@ -156,8 +150,8 @@ Local_structure_3<typename Traits::FT> annotate(const Vertex& v, const Graph& gr
                                                 const Parameters&... given) {
   internal::check_annotate_parameters<internal::Joined_parameters<Parameters...>, internal::Vertex_point_tag>();
   const auto parameters = internal::joined_parameters(given...);
-  const auto structure = internal::structure_at(traits, get(vertex_points(graph, parameters), v),
-                                                internal::status_before(parameters, v), parameters);
+  const auto structure =
+      internal::structure_at(traits, get(vertex_points(graph, parameters), v), internal::status_before(parameters, v));
   internal::put_structure(parameters, v, structure, internal::Structure_tags());
   return structure;
 }

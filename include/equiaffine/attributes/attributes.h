@@ -12,7 +12,6 @@
 #include <equiaffine/function/internal/point_blocks.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/geometry/Point_status.h>
-#include <equiaffine/geometry/reference_estimators.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/number/Pack.h>
 #include <equiaffine/surface/internal/affine_gradients.h>
@@ -122,16 +121,6 @@ Expanded_block expand_block(const Traits& traits, std::span<const typename Trait
   return block;
 }
 
-/// Computes the structure by the estimator in `parameters`. If there is none, the paper's estimators are not
-/// instantiated.
-template <class Parameters, class FT>
-Local_structure_3<FT> structure_by(const Parameters& parameters, const Jet_3<FT>& jet, const std::array<FT, 3>& point,
-                                   const FT& rounding) {
-  if constexpr (has_parameter<Estimator_tag, Parameters>)
-    return local_structure(jet, point, rounding, get_parameter<Estimator_tag>(parameters, Estimator::COMPACT));
-  else return local_structure(jet, point, rounding);
-}
-
 /// The rows of the result that belong to the points of one block.
 struct Attribute_rows {
   const std::vector<Attribute>& attributes;
@@ -165,17 +154,6 @@ inline void measure_pack(const Expanded_block& block, std::size_t n, const Attri
   }
 }
 
-/// Fills the rows by the estimator in `parameters`. Only our own estimator, COMPACT, computes in packs.
-template <class Parameters>
-void measure_block(const Expanded_block& block, const Parameters& parameters, const Attribute_rows& rows) {
-  if (get_parameter<Estimator_tag>(parameters, Estimator::COMPACT) == Estimator::COMPACT) {
-    for (std::size_t n = 0; n < block.number_of_packs(); ++n) measure_pack(block, n, rows);
-  } else {
-    for (std::size_t i = 0; i < block.number_of_points; ++i)
-      rows.set(i, structure_by(parameters, block.jet(i), block.point(i), block.rounding(i)));
-  }
-}
-
 /// Fills the columns of norms of gradients, if any are selected.
 template <class Traits>
 void measure_gradients(const Traits& traits, std::span<const typename Traits::Point_3> points,
@@ -191,10 +169,9 @@ void measure_gradients(const Traits& traits, std::span<const typename Traits::Po
 }
 
 /// The work of compute_attributes().
-template <class ConcurrencyTag, class Traits, class Parameters>
+template <class ConcurrencyTag, class Traits>
 Vertex_attributes compute_columns(const Traits& traits, std::span<const typename Traits::Point_3> points,
-                                  const Attribute_selection& selection, std::span<const Point_status> sampled_status,
-                                  const Parameters& parameters) {
+                                  const Attribute_selection& selection, std::span<const Point_status> sampled_status) {
   Vertex_attributes result;
   if (selection.columns.empty() && !selection.has_status) return result;
   for (const Attribute& attribute : selection.columns) {
@@ -213,7 +190,8 @@ Vertex_attributes compute_columns(const Traits& traits, std::span<const typename
         for (std::size_t n = 0; n < numbers.size(); ++n) points_of_block[n] = points[numbers[n]];
         const auto block = std::span<const typename Traits::Point_3>(points_of_block).first(numbers.size());
         const Attribute_rows rows{selection.columns, result.columns, status, numbers};
-        measure_block(expand_block(local, block), parameters, rows);
+        const Expanded_block expanded = expand_block(local, block);
+        for (std::size_t n = 0; n < expanded.number_of_packs(); ++n) measure_pack(expanded, n, rows);
         measure_gradients(local, block, rows);
         if (sampled_status.empty()) return;
         for (const std::size_t n : numbers) status[n] = status_after_sampling(status[n], sampled_status[n]);
@@ -231,16 +209,15 @@ namespace equiaffine {
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
-/// | `estimator` | Estimator | COMPACT | how the affine structure is computed |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 template <ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
 Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, const typename Traits::Point_3& p,
                                                           Point_status sampled_status = Point_status::REGULAR,
-                                                          const Parameters&... given) {
-  using Joined = internal::Joined_parameters<Parameters...>;
-  internal::check_parameters<Joined, internal::Estimator_tag, internal::Geom_traits_tag, internal::Verbose_tag>();
-  auto structure = internal::structure_by<Joined, typename Traits::FT>(
-      internal::joined_parameters(given...), traits.taylor(p), {p.x(), p.y(), p.z()}, equiaffine::rounding(traits, p));
+                                                          const Parameters&...) {
+  internal::check_parameters<internal::Joined_parameters<Parameters...>, internal::Geom_traits_tag,
+                             internal::Verbose_tag>();
+  auto structure =
+      local_structure<typename Traits::FT>(traits.taylor(p), {p.x(), p.y(), p.z()}, equiaffine::rounding(traits, p));
   structure.status = status_after_sampling(structure.status, sampled_status);
   return structure;
 }
@@ -255,18 +232,16 @@ Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, 
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
-/// | `estimator` | Estimator | COMPACT | how the affine structure is computed |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           internal::Parameter_chain... Parameters>
 Vertex_attributes compute_attributes(const Traits& traits, std::span<const typename Traits::Point_3> points,
                                      const Attribute_selection& selection,
-                                     std::span<const Point_status> sampled_status = {}, const Parameters&... given) {
+                                     std::span<const Point_status> sampled_status = {}, const Parameters&...) {
   static_assert(std::is_same_v<typename Traits::FT, double>);
-  internal::check_parameters<internal::Joined_parameters<Parameters...>, internal::Estimator_tag,
-                             internal::Geom_traits_tag, internal::Verbose_tag>();
-  return internal::compute_columns<ConcurrencyTag>(traits, points, selection, sampled_status,
-                                                   internal::joined_parameters(given...));
+  internal::check_parameters<internal::Joined_parameters<Parameters...>, internal::Geom_traits_tag,
+                             internal::Verbose_tag>();
+  return internal::compute_columns<ConcurrencyTag>(traits, points, selection, sampled_status);
 }
 
 } // namespace equiaffine

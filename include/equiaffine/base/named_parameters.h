@@ -37,7 +37,6 @@ struct Planes_per_slab_tag {};
 struct Cell_block_tag {};
 struct Known_cells_tag {};
 struct Skip_empty_space_tag {};
-struct Estimator_tag {};
 struct Clip_tag {};
 struct Feature_curves_tag {};
 struct Parabolic_features_tag {};

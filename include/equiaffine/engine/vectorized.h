@@ -11,7 +11,6 @@
 #include <equiaffine/function/Sampled_function_traits_3.h>
 #include <equiaffine/function/Transformed_function_traits_3.h>
 #include <equiaffine/geometry/Point_status.h>
-#include <equiaffine/geometry/reference_estimators.h>
 #include <equiaffine/marching_cubes/Vertex_position.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
@@ -75,13 +74,11 @@ Isosurface_3<Kernel> marching_cubes(const Level_set_traits_3<Spline>& level_set,
 Vertex_attributes compute_attributes(const Level_set_traits_3<Formula>& level_set,
                                      std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
                                      std::span<const Point_status> sampled_status = {},
-                                     Estimator estimator = Estimator::COMPACT,
                                      Instruction_set set = instruction_sets().back());
 /// The same for a spline.
 Vertex_attributes compute_attributes(const Level_set_traits_3<Spline>& level_set,
                                      std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
                                      std::span<const Point_status> sampled_status = {},
-                                     Estimator estimator = Estimator::COMPACT,
                                      Instruction_set set = instruction_sets().back());
 
 /// The greatest distance of points from a level set, to first order, as equiaffine::max_distance_to_surface() computes

@@ -136,7 +136,7 @@ constexpr void check_parameters_of_maps(Tag_list<Tags...>) {
 }
 template <class Parameters, class... OtherTags>
 constexpr void check_annotate_parameters() {
-  check_parameters_of_maps<Parameters, Estimator_tag, Geom_traits_tag, Verbose_tag, OtherTags...>(Structure_tags());
+  check_parameters_of_maps<Parameters, Geom_traits_tag, Verbose_tag, OtherTags...>(Structure_tags());
 }
 
 template <class Parameters, class... Tags>

@@ -54,12 +54,6 @@
     return internal::add_parameter<internal::Known_cells_tag>(cells, GIVEN);                                           \
   }                                                                                                                    \
                                                                                                                        \
-  /** The Estimator of co-normal, affine normal and affine curvatures. */                                              \
-  template <class Way>                                                                                                 \
-  auto estimator(Way way) CONST {                                                                                      \
-    return internal::add_parameter<internal::Estimator_tag>(way, GIVEN);                                               \
-  }                                                                                                                    \
-                                                                                                                       \
   /** The Clip_domain_3 where the surface is looked for. */                                                            \
   template <class Domain>                                                                                              \
   auto clip(const Domain& domain) CONST {                                                                              \
