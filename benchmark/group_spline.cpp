@@ -16,7 +16,6 @@
 #include <equiaffine/marching_cubes/marching_cubes.h>
 #include <equiaffine/surface/project_to_surface.h>
 #include <equiaffine/volume/Sample_noise.h>
-#include <equiaffine/volume/choose_smoothing.h>
 #include <equiaffine/volume/signed_distance_volume.h>
 
 #include <CGAL/Image_3.h>

@@ -15,7 +15,6 @@
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
 #include <equiaffine/volume/Volume_3.h>
-#include <equiaffine/volume/choose_smoothing.h>
 #include <equiaffine/volume/signed_distance_volume.h>
 
 #include <CGAL/tags.h>

@@ -1,13 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Says which files and functions are too long to be read at a sitting: python3 sizes.py ROOT.
+"""Says which files and functions are too long to be read at a sitting, and which headers are too short:
+python3 sizes.py ROOT.
 
-Files of include, src, program and viewer have at most 500 lines, functions there at most 60, in C++ as in JavaScript.
-The code is formatted by clang-format, so that a function ends at the first closing brace as far left as its head."""
+Files have at most 500 lines. Functions of include, src, program and viewer have at most 60, in C++ as in JavaScript.
+The code is formatted by clang-format, so that a function ends at the first closing brace as far left as its head.
+
+A header of include, src or program with less than 60 lines has two users, which are files outside of test that include
+it. With one, its lines belong there."""
 import pathlib
 import re
 import sys
 
 MOST_LINES_OF_FILE, MOST_LINES_OF_FUNCTION = 500, 60
+LEAST_LINES_OF_HEADER_WITH_ONE_USER = 60
+SHORT_HEADERS = {  # with one user, and why
+    "include/equiaffine/io/write_curves.h": "it is for callers, as the other writers are",
+    "src/display/oklab.h": "its test reads the maps of colors before they are clamped",
+}
+WITH_FUNCTIONS = ("include", "src", "program", "viewer")
+OTHERS = ("test", "benchmark", "examples", "bindings", "reproduce")
+WITH_HEADERS = ("include", "src", "program")
+INCLUDE = re.compile(r'^ *# *include *[<"]([^>"]+)[>"]', re.MULTILINE)
 NO_FUNCTION = re.compile(r"(namespace|class|struct|enum|union|extern|concept|if|else|for|while|do|switch|try|catch|return)\b"
                          r"|[}#@]|//")
 END_OF_STATEMENT = re.compile(r"([;{}:]|\*/|^\s*//.*|^\s*#.*|R\"\w*\()$")
@@ -47,20 +60,56 @@ def functions(text):
             yield begin + 1, end - begin + 1
 
 
-def find_faults(root):
-    for folder in ("include", "src", "program", "viewer"):
+def files(root, folders, suffixes):
+    """(path below the root, text) of each file of the folders."""
+    for folder in folders:
         for path in sorted((root / folder).rglob("*")):
-            if path.suffix not in (".h", ".cpp", ".js", ".glsl", ".css", ".html"):
-                continue
-            name, text = path.relative_to(root).as_posix(), path.read_text()
-            if (length := text.count("\n")) > MOST_LINES_OF_FILE:
-                yield f"{name} has {length} lines, {MOST_LINES_OF_FILE} at most: can one idea be one file?"
+            if path.suffix in suffixes:
+                yield path.relative_to(root).as_posix(), path.read_text()
+
+
+def users_of_headers(root):
+    """Path of a header -> the files outside of test that include it."""
+    users = {}
+    for name, text in files(root, WITH_HEADERS + OTHERS, (".h", ".cpp", ".cxx")):
+        if name.startswith("test/"):
+            continue
+        places = [(root / name).parent, root / name.split("/")[0]] + [root / folder for folder in WITH_HEADERS]
+        for included in INCLUDE.findall(text):
+            header = next((place / included for place in places if (place / included).is_file()), None)
+            if header is not None:
+                users.setdefault(header.resolve().relative_to(root.resolve()).as_posix(), set()).add(name)
+    return users
+
+
+def faults_of_headers(root):
+    users = users_of_headers(root)
+    for name, text in files(root, WITH_HEADERS, (".h",)):
+        number = len(users.get(name, ()))
+        is_short = text.count("\n") < LEAST_LINES_OF_HEADER_WITH_ONE_USER and number < 2
+        if is_short and name not in SHORT_HEADERS:
+            lines = f"less than {LEAST_LINES_OF_HEADER_WITH_ONE_USER} lines"
+            if number == 0:
+                yield f"{name}: a header of {lines} that only tests include, or nothing: who needs it?"
+            else:
+                yield f"{name}: a header of {lines} that only {min(users[name])} includes: can it be a part of that?"
+        elif not is_short and name in SHORT_HEADERS:
+            yield f"{name}: it needs no exception in SHORT_HEADERS any more: remove it there"
+
+
+def find_faults(root):
+    for name, text in [*files(root, WITH_FUNCTIONS, (".h", ".cpp", ".js", ".glsl", ".css", ".html")),
+                       *files(root, OTHERS, (".h", ".cpp", ".cxx", ".py"))]:
+        if (length := text.count("\n")) > MOST_LINES_OF_FILE:
+            yield f"{name} has {length} lines, {MOST_LINES_OF_FILE} at most: can one idea be one file?"
+        if name.startswith(tuple(folder + "/" for folder in WITH_FUNCTIONS)):
             for line, length in functions(text):
                 if length > MOST_LINES_OF_FUNCTION:
                     yield f"{name}:{line}: a function of {length} lines, {MOST_LINES_OF_FUNCTION} at most"
+    yield from faults_of_headers(root)
 
 
 if __name__ == "__main__":
     found = list(find_faults(pathlib.Path(sys.argv[1])))
-    print("\n".join(found) or "no file and no function is too long")
+    print("\n".join(found) or "no file and no function is too long, and no header too short")
     sys.exit(bool(found))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes files and functions that are just short enough, and one line too long."""
+"""Writes files and functions that are just short enough, and one line too long, and headers with too few users."""
 import pathlib
 import tempfile
 import unittest
@@ -12,17 +12,45 @@ def function(lines, head="int f(int x) {"):
 
 
 class Sizes(unittest.TestCase):
-    def faults(self, text):
-        """Of a checkout with one header."""
+    def faults_of(self, files):
+        """Of a checkout with these files: path -> text."""
         with tempfile.TemporaryDirectory() as folder:
-            header = pathlib.Path(folder) / "include/equiaffine/module/a.h"
-            header.parent.mkdir(parents=True)
-            header.write_text(text)
+            for name, text in files.items():
+                path = pathlib.Path(folder) / name
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text(text)
             return list(find_faults(pathlib.Path(folder)))
+
+    def faults(self, text):
+        """Of a checkout with one header and two files that include it."""
+        user = "#include <equiaffine/module/a.h>\n"
+        return self.faults_of({"include/equiaffine/module/a.h": text, "src/a.cpp": user, "src/b.cpp": user})
 
     def test_a_file_of_500_lines_is_not_too_long_and_one_of_501_is(self):
         self.assertEqual(self.faults("int x;\n" * 500), [])
         self.assertIn("module/a.h has 501 lines", self.faults("int x;\n" * 501)[0])
+
+    def test_files_of_tests_and_examples_have_the_same_limit_and_functions_there_have_none(self):
+        for name in ("test/a/a_test.cpp", "test/a/a_test.py", "benchmark/a.h", "examples/a.cpp", "bindings/a/a.cxx",
+                     "reproduce/a.py"):
+            self.assertEqual(self.faults_of({name: function(500)}), [])
+            self.assertIn(f"{name} has 501 lines", self.faults_of({name: function(501)})[0])
+
+    def test_a_short_header_has_two_users_outside_of_the_tests(self):
+        header, user = "program/cli/a.h", '#include "cli/a.h"\n'
+        users = {"program/cli/a.cpp": '#include "a.h"\n', "program/main.cpp": user}
+        self.assertEqual(self.faults_of({header: "int x;\n" * 59, **users}), [])
+        del users["program/main.cpp"]
+        self.assertEqual(self.faults_of({header: "int x;\n" * 60, **users}), [])
+        users["test/program/a_test.cpp"] = user
+        self.assertIn("program/cli/a.h: a header of less than 60 lines that only program/cli/a.cpp includes",
+                      self.faults_of({header: "int x;\n" * 59, **users})[0])
+        self.assertIn("that only tests include", self.faults_of({header: "int x;\n", "test/a.cpp": user})[0])
+
+    def test_headers_of_one_name_in_two_folders_have_users_of_their_own(self):
+        user = '#include "m/a.h"\n'
+        found = self.faults_of({"src/m/a.h": "", "program/m/a.h": "", "src/b.cpp": user, "program/b.cpp": user})
+        self.assertEqual(len(found), 2)
 
     def test_a_function_of_60_lines_is_not_too_long_and_one_of_61_is(self):
         self.assertEqual(self.faults(function(60)), [])

@@ -1,37 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests the module for Python, beside the program of the same build: EQUIAFFINE_PROGRAM names it."""
+"""Tests what the module for Python computes, beside the program of the same build: EQUIAFFINE_PROGRAM names it."""
 import doctest
-import gc
 import os
 import pathlib
 import pickle
-import re
-import signal
 import subprocess
 import sys
 import tempfile
-import threading
-import time
 import types
 import unittest
 import unittest.mock
-import warnings
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
 import equiaffine as ea
-
-PROGRAM = os.environ["EQUIAFFINE_PROGRAM"]
-BLOBBY = "(3*x)^4 + (3*y)^4 + (3*z)^4 - 45*x^2 - 45*y^2 - 45*z^2 + 6"
-
-
-def run_program(*words):
-    subprocess.run([PROGRAM, *map(str, words)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-
-def resident_memory():
-    return int(pathlib.Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+from module_support import BLOBBY, InTemporaryFolder, run_program
 
 
 def edges_are_paired(F):
@@ -40,22 +23,6 @@ def edges_are_paired(F):
     _, counts = np.unique(edges, axis=0, return_counts=True)
     forth = set(map(tuple, edges.tolist()))
     return bool((counts == 1).all()) and all((b, a) in forth for a, b in forth)
-
-
-class InTemporaryFolder(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def assert_same(self, ours, theirs):
-        """Asserts that two surfaces are the same bit for bit."""
-        np.testing.assert_array_equal(ours.V, theirs.V)
-        np.testing.assert_array_equal(ours.F, theirs.F)
-        np.testing.assert_array_equal(ours.status, theirs.status)
-        self.assertGreater(len(theirs.attributes), 5)
-        for name, values in theirs.attributes.items():
-            np.testing.assert_array_equal(ours.attributes[name], values, err_msg=name)
 
 
 class SameAsProgram(InTemporaryFolder):
@@ -208,144 +175,6 @@ class Sources(InTemporaryFolder):
         self.assertLess(found.V[:, 0].max(), 0.3)
 
 
-class Errors(InTemporaryFolder):
-    def assert_sentence(self, pattern, function, *arguments, **options):
-        with self.assertRaisesRegex(ValueError, pattern):
-            function(*arguments, **options)
-
-    def test_sentences_name_arguments(self):
-        self.assert_sentence(r"(?s)missing operator.*\n2x\n *\^", ea.mesh, "2x", box=1)
-        self.assert_sentence("box", ea.mesh, "x")
-        self.assert_sentence("no 'b'", ea.mesh, "x", box=1, constants={"b": 1})
-        self.assert_sentence("unknown name|'a'", ea.mesh, "a*x", box=1)
-        self.assert_sentence("method", ea.mesh, "x", box=1, method="magic")
-        self.assert_sentence("resolution", ea.mesh, "x", box=1, resolution=1)
-        self.assert_sentence("level", ea.mesh, "x^2", box=1, level=-1)
-        self.assert_sentence("give one of marching-cubes", ea.mesh, "x", box=1, method=None)
-        self.assert_sentence("constants=.*VALUE", ea.mesh, "q*x", box=1)
-        self.assert_sentence("such as box=2", ea.mesh, "x")
-        self.assert_sentence("level: give a number", ea.mesh, "x", box=1, level=[1, 2])
-        self.assert_sentence("level: give a finite", ea.mesh, "x", box=1, level=np.nan)
-        self.assert_sentence("level: give a number", ea.mesh, "x", box=1, level=True)
-        self.assert_sentence("whole number", ea.mesh, "x", box=1, resolution=8.7)
-        self.assert_sentence("whole number", ea.mesh, "x", box=1, threads=1.5)
-        self.assert_sentence("attributes", ea.mesh, "x", box=1, attributes=None)
-        self.assert_sentence("cannot name a constant", ea.mesh, "c*x", box=1, constants={"c": 1, "c=3": 1})
-        self.assert_sentence("GB", ea.mesh, "x", box=1, resolution=20000)
-        self.assert_sentence("unknown name 'help'(?s:.*)\n--help\n  \\^", ea.mesh, "--help", box=1)
-        self.assert_sentence("nothing to evaluate", ea.mesh, "", box=1)
-        self.assertGreater(len(ea.mesh("-x", box=1).V), 0)
-        self.assert_sentence("box: give", ea.mesh, "x", box=[[-1, -1, -1], [1, 1, 1]])
-        self.assert_sentence("box: give", ea.mesh, lambda x, y, z: x, box=[1, -1, 1, -1, 1, -1])
-        self.assert_sentence("complex", ea.mesh, np.zeros((3, 3, 3), complex))
-        self.assert_sentence("three dimensions", ea.mesh, np.zeros((3, 3)))
-        self.assert_sentence("shape", ea.curvatures, [[1, 2], [3, 4]])
-        self.assert_sentence("vertex 7", ea.curvatures, np.zeros((3, 3)), [[0, 1, 7]])
-        self.assert_sentence("vertex -1", ea.curvatures, np.zeros((3, 3)), [[0, 1, -1]])
-        self.assert_sentence("integers", ea.curvatures, np.zeros((3, 3)), [[0.5, 1, 2]])
-        self.assert_sentence("30 points are not finite", ea.curvatures, [[0, 0, np.nan]] * 30)
-        self.assert_sentence("no points", ea.curvatures, np.zeros((0, 3)))
-        self.assert_sentence("no file", ea.register, "missing.ply", "missing.ply")
-        self.assert_sentence("missing.ply", ea.read, "missing.ply")
-        self.assert_sentence("extension", ea.write, self.folder / "a.xyzzy", ea.Surface(np.zeros((3, 3))))
-        for wrong in ({"smoothing": 1}, {"spacing": 1}):
-            with self.assertRaises(TypeError):
-                ea.mesh("x", box=1, **wrong)
-
-    def test_no_sentence_is_half_translated(self):
-        ball = ea.mesh("x^2 + 2*y^2 + z^2 = 1 + 0.3*x*y*z", box=1.4, resolution=12)
-        page = self.folder / "page.html"
-        found = []
-        for call in (lambda: ea.mesh("x", box=1, attributes="k1_error"), lambda: ea.fit(ball).mesh(level=5, resolution=16),
-                     lambda: ea.view(ea.Surface(ball.V), page), lambda: ea.view(ball, page, size=(9, 9)),
-                     lambda: ea.curvatures(ball, degree=7), lambda: ea.mesh(np.ones((9, 9, 9)), smoothing=-1)):
-            with self.assertRaises(ValueError) as caught:
-                call()
-            found.append(str(caught.exception))
-        with warnings.catch_warnings(record=True) as told:
-            warnings.simplefilter("always")
-            ea.curvatures(ball.V[::3], scale=0.9)
-        found += [str(warning.message) for warning in told]
-        self.assertGreater(len(found), 6)
-        for sentence in found:
-            self.assertNotRegex(sentence, r'--|="or"|html=|use f or| png;|choose an level', sentence)
-
-    def test_arguments_of_a_wrong_form_are_named(self):
-        samples, ball = np.ones((9, 9, 9)), ea.mesh("x^2 + y^2 + z^2 = 1", box=1.2, resolution=8)
-        bad = ball.V.copy()
-        bad[3] = np.nan
-        for name, call in {
-                "spacing": lambda: ea.mesh(samples, spacing=(1, 2)), "origin": lambda: ea.Volume(samples, origin="abc"),
-                "direction": lambda: ea.mesh(samples, direction=np.diag([1, 1, 2])), "values": lambda: ea.Volume(samples[0]),
-                "constants['r']": lambda: ea.mesh("x + r", box=1, constants={"r": "a"}),
-                "range": lambda: ea.view(ball, self.folder / "a.html", range=1),
-                "size": lambda: ea.view(ball, self.folder / "a.png", size=(100,)),
-                "normals": lambda: ea.curvatures(ball.V, normals=ball.V[:5]), "points": lambda: ea.register(ball, ball).apply([1]),
-                "progress": lambda: ea.evaluate("x", [[1, 2, 3]], progress=3),
-                "reflection": lambda: ea.symmetries(ball, reflection="no"), "V": lambda: ea.curvatures(bad, ball.F),
-                "a": lambda: ea.register(ea.fit(ball), ball), "f": lambda: ea.mesh(lambda x, y, z: x[:, :3], box=1),
-                "attributes": lambda: ea.Surface(ball.V, ball.F, {"status": ball["k1"]}).save(self.folder / "a.ply")}.items():
-            with self.assertRaisesRegex(ValueError, "^" + re.escape(name) + ": "):
-                call()
-        with self.assertRaises(TypeError):
-            ea.evaluate("x", [[1, 2, 3]], box=1)
-
-    def test_masks_are_no_samples_or_refused(self):
-        x, y, z = np.mgrid[-1:1:20j, -1:1:20j, -1:1:20j]
-        values = x**2 + y**2 + z**2
-        masked = ea.mesh(np.ma.masked_where(x > 0, values), level=0.5)
-        np.testing.assert_array_equal(masked.V, ea.mesh(np.where(x > 0, np.nan, values), level=0.5).V)
-        self.assert_sentence("masked", ea.curvatures, np.ma.masked_where(values.reshape(-1, 1) > 1, np.zeros((8000, 1))))
-
-    def test_a_status_that_is_none_is_refused(self):
-        ball = ea.mesh("x^2 + y^2 + z^2 = 1", box=1.2, resolution=12)
-        for status in (np.full(len(ball.V), 200), np.full(len(ball.V), -1), ball.status[:3], np.full(len(ball.V), 0.5)):
-            wrong = ea.Surface(ball.V, ball.F, {}, status)
-            self.assert_sentence("status", wrong.save, self.folder / "a.csv")
-            self.assert_sentence("status", ea.view, wrong, self.folder / "a.html", color="status")
-
-    def test_what_cannot_be_shown_is_refused_and_leaves_nothing(self):
-        ball = ea.mesh("x^2 + y^2 + z^2 = 1", box=1.2, resolution=12)
-        before = set(pathlib.Path(tempfile.gettempdir()).glob("equiaffine-*.html"))
-        self.assert_sentence("nope", ea.view, ball, color="nope")
-        self.assert_sentence("has no faces", ea.view, ea.Surface(ball.V))
-        self.assertEqual(set(pathlib.Path(tempfile.gettempdir()).glob("equiaffine-*.html")), before)
-
-    def test_exceptions_of_progress_stay_as_they_are(self):
-        class Enough(ValueError):
-            pass
-        def end(*_):
-            raise Enough("use --my-option")
-        with self.assertRaisesRegex(Enough, "use --my-option"):
-            ea.mesh(BLOBBY, box=1.2, resolution=200, progress=end)
-
-    def test_a_map_is_never_invented(self):
-        a = ea.mesh("x^4 + 2*y^4 + z^4 + x*y^2 + 0.3*x*z = 1", box=1.5, resolution=20)
-        b = ea.mesh("x^2 + y^2 + z^2 + 0.4*sin(5*x)*sin(4*y)*z = 1", box=1.5, resolution=20)
-        found = ea.register(a.V[::3], b.V[::3])
-        self.assertFalse(found)
-        self.assertIsNone(found.matrix)
-        self.assertIn("no map", found.summary)
-        with self.assertRaises(ValueError):
-            found.apply(a.V)
-
-    def test_warnings_are_those_of_the_program(self):
-        ball = ea.mesh("x^2 + y^2 + z^2 = 1", box=1.2, resolution=12)
-        signs = np.random.default_rng(1).choice([-1, 1], size=(len(ball.V), 1))
-        with self.assertWarnsRegex(UserWarning, "normal"):
-            ea.curvatures(ball.V, normals=signs * ball["normal"])
-
-    def test_an_output_is_whole_or_absent(self):
-        surface = ea.mesh("x^2 + y^2 + z^2 = 1", box=2, resolution=12)
-        path = self.folder / "a.ply"
-        surface.save(path)
-        before = path.read_bytes()
-        broken = ea.Surface(surface.V, surface.F, {"short": np.zeros(3)})
-        self.assert_sentence("'short' has 3 numbers", broken.save, path)
-        self.assertEqual(path.read_bytes(), before)
-        self.assertEqual(list(self.folder.iterdir()), [path])
-
-
 class Files(InTemporaryFolder):
     def test_surfaces_and_volumes_come_back(self):
         surface = ea.mesh(BLOBBY, box=1.2, resolution=20)
@@ -388,112 +217,6 @@ class Files(InTemporaryFolder):
         self.assertIn("<html", (self.folder / "a.html").read_text()[:200])
         self.assertEqual((self.folder / "a.png").read_bytes()[:4], b"\x89PNG")
         self.assertIn("srcdoc=", surface._repr_html_())
-
-
-class Memory(unittest.TestCase):
-    def test_arrays_share_the_memory_of_the_library_and_keep_it(self):
-        values = ea.mesh(BLOBBY, box=1.2, resolution=40)["mean_curvature"]
-        self.assertFalse(values.flags.owndata)
-        copy = values.copy()
-        gc.collect()
-        for _ in range(5):
-            ea.mesh(BLOBBY, box=1.2, resolution=40)
-        np.testing.assert_array_equal(values, copy)
-
-    def test_a_thousand_calls_take_no_memory(self):
-        samples = np.linspace(-1, 1, 12**3).reshape(12, 12, 12)
-        def calls(count):
-            for _ in range(count):
-                ea.mesh("x^2 + y^2 + z^2 = 1", box=2, resolution=12)
-                ea.mesh(samples)
-                with self.assertRaises(ValueError):
-                    ea.mesh("x +", box=1)
-        calls(100)
-        before = resident_memory()
-        calls(1000)
-        self.assertLess(resident_memory() - before, 2**23)
-
-    def test_a_volume_is_not_copied(self):
-        samples = np.zeros((160, 160, 160), np.uint8)
-        samples[40:120, 40:120, 40:120] = 200
-        code = ("import resource, sys, numpy, equiaffine as ea; v = numpy.load(sys.argv[1]); m = lambda: "
-                "resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024; b = m(); s = ea.mesh(v, level=100); print(m() - b)")
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "v.npy"
-            np.save(path, samples)
-            growth = int(subprocess.run([sys.executable, "-c", code, path], check=True, capture_output=True).stdout)
-        self.assertLess(growth, 8 * samples.size)  # what the samples would take as doubles
-
-
-class Threads(unittest.TestCase):
-    def test_other_threads_run_meanwhile(self):
-        steps, stop = [0], threading.Event()
-        def count():
-            while not stop.is_set():
-                steps[0] += 1
-                time.sleep(0.001)
-        thread = threading.Thread(target=count)
-        thread.start()
-        ea.mesh(BLOBBY, box=1.2, resolution=150)
-        stop.set()
-        thread.join()
-        self.assertGreater(steps[0], 10)
-
-    def test_a_pool_gets_the_same_results(self):
-        formulas = [f"x^2 + y^2 + {a}*z^2 = 1" for a in range(1, 9)]
-        mesh = lambda formula: ea.mesh(formula, box=1.2, resolution=24)
-        expected = [mesh(formula) for formula in formulas]
-        with ThreadPoolExecutor(4) as pool:
-            for ours, theirs in zip(pool.map(mesh, formulas), expected):
-                np.testing.assert_array_equal(ours.V, theirs.V)
-                np.testing.assert_array_equal(ours["mean_curvature"], theirs["mean_curvature"])
-
-    def test_one_thread_gives_the_same_bits(self):
-        one, all_of_them = (ea.mesh(BLOBBY, box=1.2, resolution=30, threads=threads) for threads in (1, None))
-        np.testing.assert_array_equal(one.V, all_of_them.V)
-
-    def test_a_forked_process_computes(self):
-        ea.mesh("x^2 + y^2 + z^2 = 1", box=2, resolution=12)
-        process = os.fork()
-        if process == 0:
-            os._exit(0 if len(ea.mesh("x^2 + y^2 + z^2 = 1", box=2, resolution=12, threads=1).V) > 100 else 1)
-        self.assertEqual(os.waitpid(process, 0)[1], 0)
-
-    def test_a_process_ends_while_a_daemon_thread_computes(self):
-        code = ("import threading, time, equiaffine as ea; threading.Thread(target=lambda: ea.mesh('sin(x)*y + z', box=5, "
-                "resolution=500), daemon=True).start(); time.sleep(0.3)")
-        self.assertEqual(subprocess.run([sys.executable, "-c", code], check=False, capture_output=True).returncode, 0)
-
-    def test_progress_is_told_and_may_end_the_work(self):
-        seen = []
-        ea.mesh(BLOBBY, box=1.2, resolution=200, progress=lambda *step: seen.append(step))
-        self.assertTrue(seen)
-        self.assertTrue(all(stage > 0 and 0 <= done <= total for stage, done, total in seen))
-        class Enough(Exception):
-            pass
-        def end(*_):
-            raise Enough
-        with self.assertRaises(Enough):
-            ea.mesh(BLOBBY, box=1.2, resolution=200, progress=end)
-
-    def test_control_c_ends_each_long_function(self):
-        ball = ea.mesh("x^4 + 2*y^4 + z^4 + x*y^2 + 0.3*x*z = 1", box=1.5, resolution=40)
-        x, y, z = np.mgrid[-1:1:150j, -1:1:150j, -1:1:150j]
-        samples = np.sin(20 * x) * np.sin(20 * y) * np.sin(20 * z)
-        calls = {
-            "mesh": lambda progress: ea.mesh("sin(30*x)*sin(30*y)*sin(30*z) = 0.1", box=3, resolution=300, progress=progress),
-            "volume": lambda progress: ea.mesh(samples, level=0.1, attributes="all", progress=progress),
-            "delaunay": lambda progress: ea.mesh(BLOBBY, box=1.2, method="delaunay", radius=0.02, progress=progress),
-            "curvatures": lambda progress: ea.curvatures(ball.V, ball.F, progress=progress),
-            "fit": lambda progress: ea.fit(ball.V, ball.F, progress=progress),
-            "register": lambda progress: ea.register(ball, (ball.V[:, [1, 0, 2]] * [1, 2, 3], ball.F), progress=progress),
-            "symmetries": lambda progress: ea.symmetries(ball, progress=progress),
-        }
-        before = threading.active_count()
-        for name, call in calls.items():
-            with self.assertRaises(KeyboardInterrupt, msg=name):
-                call(lambda *_: signal.raise_signal(signal.SIGINT))
-        self.assertEqual(threading.active_count(), before)
 
 
 class BesideScikitImage(unittest.TestCase):

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/sample_volume.h"
+#include "volume/nodes_to_measure.h"
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
-#include <equiaffine/volume/choose_smoothing.h>
 #include <equiaffine/volume/smooth_volume.h>
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>
 
 #include <gtest/gtest.h>
@@ -41,6 +42,16 @@ TEST(Sample_noise, the_deviation_of_white_noise_is_found) {
 TEST(Sample_noise, smooth_samples_have_next_to_none) {
   EXPECT_LT(estimate_noise(sample(128, 0), 0.).deviation, 1e-14);
   EXPECT_EQ(estimate_noise(sample(64, 0)).quantum, 0);
+}
+
+TEST(Sample_noise, other_kernels_of_doubles_have_the_same) {
+  using Other = CGAL::Exact_predicates_inexact_constructions_kernel;
+  const Volume volume = sample(64, 1e-4);
+  const Volume_3<Other> other = {Lattice_3<Other>(volume.lattice), volume.values};
+  const Sample_noise noise = estimate_noise(volume, 0.);
+  EXPECT_EQ(estimate_noise(other, 0.).deviation, noise.deviation);
+  EXPECT_GT(choose_smoothing(volume, noise, 7, scheme, 0.), 0);
+  EXPECT_EQ(choose_smoothing(other, noise, 7, scheme, 0.), choose_smoothing(volume, noise, 7, scheme, 0.));
 }
 
 TEST(Sample_noise, floats_and_integers_have_that_of_their_rounding) {
@@ -161,8 +172,8 @@ TEST(Sample_noise, nodes_beside_the_level_set_are_those_with_a_neighbor_on_the_o
     const auto whole = Volume_parts_3<Kernel>::of(Volume_view_3<Kernel>::of(volume));
     const auto chosen = [&](const Volume_parts_3<Kernel>& parts, std::size_t most) {
       std::vector<std::array<std::size_t, 3>> all;
-      for (const auto& part :
-           internal::nodes_to_measure<CGAL::Parallel_if_available_tag>(parts, std::optional(level), margin, most))
+      for (const auto& part : internal::nodes_to_measure(runs_in_threads<CGAL::Parallel_if_available_tag>(), parts,
+                                                         std::optional(level), margin, most))
         all.insert(all.end(), part.begin(), part.end());
       return all;
     };

@@ -4,7 +4,6 @@
 #include <equiaffine/function/Sampled_function_traits_3.h>
 #include <equiaffine/marching_cubes/marching_cubes_in_slabs.h>
 #include <equiaffine/volume/Sample_noise.h>
-#include <equiaffine/volume/choose_smoothing.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -3,7 +3,6 @@
 
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Volume_3.h>
-#include <equiaffine/volume/choose_smoothing.h>
 
 #include <CGAL/tags.h>
 

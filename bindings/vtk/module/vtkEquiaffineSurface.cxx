@@ -17,7 +17,6 @@
 #include <equiaffine/marching_cubes/marching_cubes_in_slabs.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
-#include <equiaffine/volume/choose_smoothing.h>
 
 #include <CGAL/tags.h>
 

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_VOLUME_LATTICE_3_H
 
 #include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/internal/convert_point.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Bbox_3.h>
@@ -56,6 +57,12 @@ public:
                    "zmax)");
   }
 
+  /// The same lattice in another kernel.
+  template <class Other>
+  explicit Lattice_3(const Lattice_3<Other>& other)
+      : Lattice_3(other.size(), convert_point<Kernel>(other.origin()),
+                  {in_kernel(other.steps()[0]), in_kernel(other.steps()[1]), in_kernel(other.steps()[2])}) {}
+
   const Size& size() const { return size_; }                                     ///< nx, ny, nz
   std::size_t number_of_nodes() const { return size_[0] * size_[1] * size_[2]; } ///< nx ny nz
   /// The position of node (i, j, k) among all nodes, i fastest.
@@ -98,6 +105,11 @@ public:
   }
 
 private:
+  template <class Vector>
+  static Vector_3 in_kernel(const Vector& v) {
+    return Vector_3(FT(v.x()), FT(v.y()), FT(v.z()));
+  }
+
   /// Whether the coordinates of a point or a vector are finite.
   template <class Coordinates>
   static bool is_finite(const Coordinates& c) {

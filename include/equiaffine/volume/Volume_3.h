@@ -101,6 +101,17 @@ public:
   Volume_view_3(Volume_3<Kernel> volume) // NOLINT(google-explicit-constructor): a volume is a view of its own values
       : Volume_view_3(std::make_shared<const Volume_3<Kernel>>(std::move(volume))) {}
 
+  /// The same samples in another kernel with numbers of the same type.
+  template <class Other>
+  explicit Volume_view_3(const Volume_view_3<Other>& other) requires std::is_same_v<typename Other::FT, FT>
+      : lattice_(other.lattice_),
+        first_(other.first_),
+        strides_(other.strides_),
+        convert_(other.convert_),
+        owner_(other.owner_),
+        cells_(other.cells_),
+        to_first_(other.to_first_) {}
+
   const Lattice& lattice() const { return lattice_; } ///< where the samples are
   const Cell_block& cells() const { return cells_; }  ///< the cells at whose nodes samples are known: see part()
   /// Whether some samples are not known.
@@ -161,6 +172,9 @@ public:
   }
 
 private:
+  template <class>
+  friend class Volume_view_3;
+
   explicit Volume_view_3(std::shared_ptr<const Volume_3<Kernel>> volume) : Volume_view_3(of(*volume)) {
     owner_ = std::move(volume);
   }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Chooses the scale by which to smooth the samples of a volume.
-#ifndef EQUIAFFINE_VOLUME_CHOOSE_SMOOTHING_H
-#define EQUIAFFINE_VOLUME_CHOOSE_SMOOTHING_H
-
+#include "volume/nodes_to_measure.h"
 #include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/base/internal/quantile.h>
+#include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
 #include <equiaffine/volume/Spline_parameters.h>
@@ -12,38 +11,95 @@
 #include <equiaffine/volume/internal/Line_functionals.h>
 #include <equiaffine/volume/smooth_volume.h>
 
-#include <CGAL/tags.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 namespace equiaffine::internal {
 
+namespace {
+
+/// The least |x| that at least the given fraction of all |x| do not exceed; 0 if there are none.
+double quantile_of_magnitudes(std::vector<double> values, double fraction) {
+  if (values.empty()) return 0;
+  for (double& x : values) x = std::abs(x);
+  const auto n = std::size_t(fraction * double(values.size() - 1));
+  return nth_smallest(std::move(values), n);
+}
+
+double median_magnitude(std::vector<double> values) { return quantile_of_magnitudes(std::move(values), 0.5); }
+
+/// The quantiles of |x| for a normal variable x, over its standard deviation.
+constexpr double median_over_deviation = 0.67448975019608174, quantile_80_over_deviation = 1.2815515655446004;
+
+/// The step of the samples' type, judged by some 65536 of them: 1 if all are integers, the step between floats of
+/// median size if all are floats, else 0.
+double quantum_of(const Volume_parts& volume) {
+  const std::array<std::size_t, 3>& size = volume.lattice.size();
+  const std::size_t nodes = volume.lattice.number_of_nodes(), step = nodes / 65536 + 1;
+  std::vector<double> finite;
+  for (const auto& [part, cells] : volume.parts)
+    for (std::size_t n = 0; n < nodes; n += step) {
+      const std::array<std::size_t, 3> node = {n % size[0], n / size[0] % size[1], n / size[0] / size[1]};
+      bool is_own = true;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const Line_part own = own_nodes_of(cells, a, size[a]);
+        is_own = is_own && own.first <= node[a] && node[a] < own.end;
+      }
+      if (!is_own) continue;
+      const double value = double(part(node[0], node[1], node[2]));
+      if (std::isfinite(value)) finite.push_back(value);
+    }
+  finite = volume.gather(std::move(finite));
+  if (finite.empty()) return 0;
+  if (std::all_of(finite.begin(), finite.end(), [](double x) { return x == std::nearbyint(x); })) return 1;
+  if (!std::all_of(finite.begin(), finite.end(), [](double x) { return x == double(float(x)); })) return 0;
+  return median_magnitude(std::move(finite)) * double(std::numeric_limits<float>::epsilon());
+}
+
+/// The standard deviation of white noise at some nodes, each at least 6 nodes from the border: from the median of the
+/// differences of order 12 along the axes.
+double white_noise_deviation(const Volume_parts& volume, const Nodes_of_parts& nodes) {
+  constexpr std::array<double, 7> half = {924, -792, 495, -220, 66, -12, 1}; // binomial(12, k), signs alternating
+  constexpr double norm = 1644.4390289215653;                                // sqrt(binomial(24, 12))
+  constexpr std::size_t reach = half.size() - 1;
+  std::array<double, 2 * reach + 1> line;
+  std::vector<double> differences;
+  for (std::size_t p = 0; p < nodes.size(); ++p)
+    for (const auto& node : nodes[p])
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        auto first = node;
+        first[axis] -= reach;
+        volume.parts[p].volume.copy_line(first, axis, line);
+        double sum = half[0] * double(line[reach]);
+        for (std::size_t n = 1; n <= reach; ++n) sum += half[n] * (double(line[reach + n]) + double(line[reach - n]));
+        if (std::isfinite(sum)) differences.push_back(sum / norm);
+      }
+  return median_magnitude(volume.gather(std::move(differences))) / median_over_deviation;
+}
+
 /// Measures a spline through smoothed samples in the middle of cells, without fitting it: its value and its fourth
 /// derivatives along x, y and z, in lattice coordinates, are weighted sums of the samples around the cell.
-template <class Kernel>
 class Spline_probe {
-  using FT = typename Kernel::FT;
-
 public:
   using Cell = std::array<std::size_t, 3>;
 
-  Spline_probe(const Cell& size, const Spline_rule<FT>& rule) {
+  Spline_probe(const Cell& size, const Spline_rule<double>& rule) {
     for (std::size_t a = 0; a < 3; ++a) {
-      const Line_functionals<FT> line(size[a], rule);
+      const Line_functionals<double> line(size[a], rule);
       weights_[a] = {line.kinds(), [&](std::size_t kind) { return Weights(line.rows(kind)); }};
     }
   }
 
   /// The value and the fourth derivatives along x, y and z.
-  std::array<double, 4> measure(const Volume_view_3<Kernel>& volume, const Cell& cell) const {
-    std::vector<FT> samples(weights_[0][cell[0]].value.size());
+  std::array<double, 4> measure(const Volume_view& volume, const Cell& cell) const {
+    std::vector<double> samples(weights_[0][cell[0]].value.size());
     const Weights &y = weights_[1][cell[1]], &z = weights_[2][cell[2]];
     std::array<double, 4> sum{};
     for (std::size_t k = 0; k < z.value.size(); ++k) {
@@ -92,7 +148,7 @@ private:
   /// The weights of the samples along an axis, for the value and for the fourth derivative. Samples before `first` and
   /// after the last one have no influence.
   struct Weights {
-    explicit Weights(const typename Line_functionals<FT>::Rows& rows) {
+    explicit Weights(const typename Line_functionals<double>::Rows& rows) {
       const auto is_used = [&](std::size_t j) { return rows[0][j] != 0 || rows[4][j] != 0; };
       std::size_t end = rows[0].size();
       while (first + 1 < end && !is_used(first)) ++first;
@@ -108,7 +164,7 @@ private:
   };
 
   /// The value and the fourth derivative of a line along x, from its first sample that is used.
-  Pair measure_line(const std::vector<FT>& samples, std::size_t cell) const {
+  Pair measure_line(const std::vector<double>& samples, std::size_t cell) const {
     const Weights& x = weights_[0][cell];
     Pair sum{0, 0};
     for (std::size_t i = 0; i < x.value.size(); ++i) {
@@ -140,7 +196,6 @@ private:
 };
 
 /// The cells in which scales of smoothing are compared, and the standard deviation of the noise in the samples.
-template <class Kernel>
 class Smoothing_test_site {
 public:
   using Cell = std::array<std::size_t, 3>;
@@ -148,9 +203,9 @@ public:
   using Numbers = std::array<double, 4>;
 
   /// The cells are those of each part that is known here. All machines get all of them.
-  Smoothing_test_site(const Volume_parts_3<Kernel>& volume, const Nodes_of_parts& cells, double deviation)
+  Smoothing_test_site(const Volume_parts& volume, const Nodes_of_parts& cells, double deviation)
       : volume_(volume), own_cells_(cells), deviation_(deviation) {
-    const auto cells_and_slopes = measure([](const Volume_view_3<Kernel>& samples, const Cell& cell) -> Numbers {
+    const auto cells_and_slopes = measure([](const Volume_view& samples, const Cell& cell) -> Numbers {
       const auto& [i, j, k] = cell;
       const double slope = 0.5 * std::hypot(double(samples(i + 1, j, k) - samples(i - 1, j, k)),
                                             double(samples(i, j + 1, k) - samples(i, j - 1, k)),
@@ -188,7 +243,7 @@ public:
   double agreed(double number) const { return volume_.gather({number}).front(); }
 
 private:
-  const Volume_parts_3<Kernel>& volume_;
+  const Volume_parts& volume_;
   Nodes_of_parts own_cells_;
   double deviation_;
   std::vector<Cell> cells_;
@@ -196,14 +251,13 @@ private:
 };
 
 /// A scale of smoothing, tried at a test site: value and fourth derivatives of the spline in each of its cells.
-template <class Kernel>
 class Smoothing_trial {
 public:
-  using Site = Smoothing_test_site<Kernel>;
+  using Site = Smoothing_test_site;
 
-  Smoothing_trial(const Site& site, const Spline_rule<typename Kernel::FT>& rule) : probe_(site.size(), rule) {
-    measured_ = site.measure(
-        [&](const Volume_view_3<Kernel>& samples, const auto& cell) { return probe_.measure(samples, cell); });
+  Smoothing_trial(const Site& site, const Spline_rule<double>& rule) : probe_(site.size(), rule) {
+    measured_ =
+        site.measure([&](const Volume_view& samples, const auto& cell) { return probe_.measure(samples, cell); });
   }
 
   /// The number of cells in which the spline has a value: there is no sample that is not finite in their windows.
@@ -252,26 +306,22 @@ public:
   }
 
 private:
-  Spline_probe<Kernel> probe_;
+  Spline_probe probe_;
   std::vector<typename Site::Numbers> measured_; ///< the numbers of the probe in each cell
 };
 
-inline constexpr std::array<double, 8> scales_to_try = {1.5, 2, 2.5, 3, 4, 5, 6, 8};
-
 /// The scale with the least risk at a site; `rule` says how samples become a spline without smoothing. Scales are tried
 /// in increasing order up to the first one that moves the surface or whose window does not fit into the volume.
-template <class Kernel>
-typename Kernel::FT least_risky_scale(const Smoothing_test_site<Kernel>& site, Spline_rule<typename Kernel::FT> rule) {
-  using FT = typename Kernel::FT;
-  using Trial = Smoothing_trial<Kernel>;
+double least_risky_scale(const Smoothing_test_site& site, Spline_rule<double> rule) {
+  using Trial = Smoothing_trial;
   const std::size_t shortest = *std::min_element(site.size().begin(), site.size().end());
   const Trial unsmoothed(site, rule);
   if (unsmoothed.number_of_values() == 0) return 0;
   Trial last = unsmoothed;
   double least_risk = unsmoothed.risk(site, 0);
-  FT best = 0;
-  for (const FT scale : scales_to_try) {
-    if (2 * Smoothing_filter<FT>::radius_of(scale) + 1 > shortest) break;
+  double best = 0;
+  for (const double scale : scales_to_try) {
+    if (2 * Smoothing_filter<double>::radius_of(scale) + 1 > shortest) break;
     rule.smoothing = scale;
     Trial trial(site, rule);
     constexpr double moves = std::numeric_limits<double>::infinity();
@@ -287,63 +337,48 @@ typename Kernel::FT least_risky_scale(const Smoothing_test_site<Kernel>& site, S
   return best;
 }
 
-} // namespace equiaffine::internal
+} // namespace
 
-namespace equiaffine {
-
-/// The greatest scale that choose_smoothing() may choose.
-inline constexpr double greatest_scale_to_choose = internal::scales_to_try.back();
-
-/// The next smaller scale that choose_smoothing() may choose, at least 0.
-inline double smaller_scale_to_choose(double scale) {
-  const auto& scales = internal::scales_to_try;
-  const auto found = std::lower_bound(scales.begin(), scales.end(), scale);
-  return found == scales.begin() ? 0 : *(found - 1);
+Sample_noise noise_of_samples(bool in_threads, const Volume_parts& volume, std::optional<double> isovalue) {
+  constexpr std::size_t reach = 6;
+  for (const auto& [part, cells] : volume.parts)
+    check_known_cells(part, widened(cells, reach, cells_of(volume.lattice.size())));
+  const double deviation = white_noise_deviation(volume, nodes_to_measure(in_threads, volume, isovalue, reach, 40000));
+  const double quantum = quantum_of(volume);
+  return {std::max(deviation, quantum == 1 ? 1 / std::sqrt(12.0) : 0), quantum};
 }
 
-/// The scale for smooth_volume with the least estimated error of fourth derivatives, out of 0, 1.5, 2, 2.5, 3, 4, 5, 6
-/// and 8, among those that leave the surface where it is.
-///
-/// The error of noise follows from its deviation. The error that smoothing makes is estimated by how far the
-/// derivatives differ from those at the scale before, beyond their noise, in most of some hundred cells beside the
-/// level set. A scale and all larger ones are left out if in more than a tenth of these cells the value changes by more
-/// than hypot(2 s, g): s is the standard deviation of the change that noise explains (the discrepancy principle:
-/// Morozov, On the solution of functional equations by the method of regularization, 1966), g the slope times a tenth
-/// of a voxel, below which details are interpolated anyway. Fourth derivatives of a scan with details of a few voxels
-/// are wrong at every scale, and the larger scales would smooth the details away.
-///
-/// Scales whose window does not fit into the volume are left out, and 0 is chosen where there is no spline.
-template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
-typename Kernel::FT choose_smoothing(const Volume_view_3<Kernel>& volume, const Sample_noise& noise, int degree,
-                                     Spline_scheme scheme, std::optional<typename Kernel::FT> isovalue = std::nullopt) {
-  return choose_smoothing<ConcurrencyTag>(Volume_parts_3<Kernel>::of(volume), noise, degree, scheme, isovalue);
-}
-
-/// The same for a volume in parts, of which those samples are known that cells_to_know() names for a part's cells and the
-/// greatest scale; for INTERPOLATION those for QUASI_INTERPOLATION. \throw std::invalid_argument unless they are
-template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
-typename Kernel::FT choose_smoothing(const Volume_parts_3<Kernel>& volume, const Sample_noise& noise, int degree,
-                                     Spline_scheme scheme, std::optional<typename Kernel::FT> isovalue = std::nullopt) {
+double smoothing_of_samples(bool in_threads, const Volume_parts& volume, const Sample_noise& noise, int degree,
+                            Spline_scheme scheme, std::optional<double> isovalue) {
   if (scheme == Spline_scheme::INTERPOLATION) scheme = Spline_scheme::QUASI_INTERPOLATION; // the same but for its reach
   const auto& size = volume.lattice.size();
   if (*std::min_element(size.begin(), size.end()) <= std::size_t(degree)) return 0;
   const Spline_parameters greatest = {.degree = degree, .scheme = scheme, .smoothing = greatest_scale_to_choose};
-  for (const auto& [part, cells] : volume.parts)
-    internal::check_known_cells(part, cells_to_know(cells, size, greatest));
-  const internal::Smoothing_test_site<Kernel> site(
-      volume, internal::nodes_to_measure<ConcurrencyTag>(volume, isovalue, 1, 300), noise.deviation);
+  for (const auto& [part, cells] : volume.parts) check_known_cells(part, cells_to_know(cells, size, greatest));
+  const Smoothing_test_site site(volume, nodes_to_measure(in_threads, volume, isovalue, 1, 300), noise.deviation);
   if (site.cells().empty()) return 0;
-  const int border_degree = internal::border_degree(volume, degree, scheme);
-  return internal::least_risky_scale(site, {degree, scheme, border_degree, 0});
+  return least_risky_scale(site, {degree, scheme, border_degree(volume, degree, scheme), 0});
 }
 
-/// The same for a volume of numbers of the kernel. \throw std::invalid_argument unless there are as many values as nodes
-template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
-typename Kernel::FT choose_smoothing(const Volume_3<Kernel>& volume, const Sample_noise& noise, int degree,
-                                     Spline_scheme scheme, std::optional<typename Kernel::FT> isovalue = std::nullopt) {
-  return choose_smoothing<ConcurrencyTag>(Volume_view_3<Kernel>::of(volume), noise, degree, scheme, isovalue);
+std::optional<std::size_t> few_values_of_samples(const Volume_parts& volume) {
+  constexpr std::size_t most_values = 256, most_rows = 4096;
+  const auto [nx, ny, nz] = volume.lattice.size();
+  const std::size_t step = 1 + ny * nz / most_rows;
+  std::set<double> values;
+  for (const auto& [part, cells] : volume.parts) {
+    std::vector<double> row(cells.end[0] + 1 - cells.first[0]);
+    for (std::size_t n = 0; n < ny * nz && values.size() <= most_values; n += step) {
+      const std::size_t j = n % ny, k = n / ny;
+      if (j < cells.first[1] || cells.end[1] < j || k < cells.first[2] || cells.end[2] < k) continue;
+      part.copy_line({cells.first[0], j, k}, 0, row);
+      for (std::size_t i = 0; i < row.size(); ++i)
+        if (std::isfinite(row[i]) && (i == 0 || row[i] != row[i - 1])) values.insert(row[i]);
+    }
+  }
+  const std::vector<double> of_all = volume.gather({values.begin(), values.end()});
+  values.insert(of_all.begin(), of_all.end());
+  if (values.size() > most_values) return std::nullopt;
+  return values.size();
 }
 
-} // namespace equiaffine
-
-#endif
+} // namespace equiaffine::internal
