@@ -66,23 +66,6 @@ This package has the user manual and the reference of the C++ library, for a
 browser.")
 
 set(CPACK_COMPONENTS_ALL development)
-if(BUILD_SHARED_LIBS)
-  set(package libequiaffine${PROJECT_VERSION})
-  set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${package})
-  set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
-  set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, shared library\n${EQUIAFFINE_IN_SHORT}
-.
-This package has the shared library.")
-  string(REPLACE ", static, its headers" ", its headers" CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
-                 "${CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION}")
-  set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-  set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
-  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_CURRENT_BINARY_DIR}/src)
-  string(PREPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-                 "${package} (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), ")
-  set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "${package} (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
-  list(APPEND CPACK_COMPONENTS_ALL library)
-endif()
 if(TARGET equiaffine_executable)
   list(APPEND CPACK_COMPONENTS_ALL program)
 endif()

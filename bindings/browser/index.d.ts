@@ -78,7 +78,7 @@ export class Equiaffine {
    *  estimates of their errors as NAME_error. */
   levelSet(volume: Volume, options?: LevelSetOptions): LevelSet;
   /** Curvatures of a mesh or of points, at most 50000, by polynomials that are fitted around each: `bytes` are those of a
-   *  file whose name ends with .ply, .off, .xyz or .csv. */
+   *  file whose name ends with .ply, .off, .obj, .stl, .xyz or .csv. */
   annotate(name: string, bytes: Uint8Array | ArrayBuffer, options?: AnnotateOptions): Surface;
 }
 

@@ -37,8 +37,8 @@ function unknownNames(ea, {formula, constants}) {
 async function compute(ea, {kind, ...task}) {
   if (kind === 'sample') return ea.sample(task.formula, task);
   if (kind === 'file' && !isVolume(task.name)) {
-    if (!/\.(ply|off|xyz|csv)$/i.test(task.name))
-      throw new Mistake(`cannot read '${task.name}': its extension is not known; use one of .ply .off .xyz .csv for a mesh ` +
+    if (!/\.(ply|off|obj|stl|xyz|csv)$/i.test(task.name))
+      throw new Mistake(`cannot read '${task.name}': its extension is not known; use one of .ply .off .obj .stl .xyz .csv for a mesh ` +
                         'or points, .nrrd .mha .nii .nii.gz for a volume', '', '');
     return ea.fit(task.name, task.bytes, {scale: null, ...task});
   }

@@ -135,8 +135,8 @@ const std::vector<Option_row> rows_of_sources = {
      "the mesh, widened on all sides by 10 % of its longest side, if not given",
      [](const Option_words& option, Draft& draft) { draft.source.box = parse_box(option); }},
     {"--points", EVALUATE, SOURCE, 1, "IN",
-     "the points: .csv with a header that names x, y, z; .ply; .off; .xyz; - reads one of\n"
-     "the first three from standard input",
+     "the points: .csv with a header that names x, y, z; .ply; .off; .obj; .stl; .xyz; - reads\n"
+     "one of the first three from standard input",
      [](const Option_words& option, Draft& draft) { draft.points = option.word(); }},
     {"MESH.ply", VIEW, INPUT, 1, "", "a mesh as this program writes it, or any other .ply; - reads standard input",
      [](const Option_words& option, Draft& draft) { draft.mesh = option.word(); }},

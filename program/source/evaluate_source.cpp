@@ -14,8 +14,11 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <type_traits>
+#include <utility>
 #include <variant>
+#include <vector>
 
 namespace equiaffine {
 
@@ -23,11 +26,33 @@ namespace {
 
 using Tag = CGAL::Parallel_if_available_tag;
 
-/// Replaces attributes by those of another estimator. Norms of gradients stay.
+/// The attributes that are norms of gradients, which do not depend on the estimator.
+Attribute_selection gradients_of(const Attribute_selection& selection) {
+  Attribute_selection gradients = {{}, false};
+  for (const Attribute& attribute : selection.columns)
+    if (attribute_table<double>[attribute.row].gradient) gradients.columns.push_back(attribute);
+  return gradients;
+}
+
+/// Computes attributes by one of the paper's estimators. Norms of gradients are taken from `gradients`.
 template <class Traits>
-void estimate_again(const Level_set_traits_3<Traits>& level_set, Estimator estimator,
-                    std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
-                    std::span<const Point_status> sampled_status, Vertex_attributes& attributes) {
+Vertex_attributes estimated_attributes(const Level_set_traits_3<Traits>& level_set, Estimator estimator,
+                                       std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
+                                       std::span<const Point_status> sampled_status, Vertex_attributes gradients) {
+  Vertex_attributes attributes;
+  auto next_gradient = gradients.columns.begin();
+  std::vector<std::size_t> estimated;
+  for (std::size_t c = 0; c < selection.columns.size(); ++c) {
+    const Attribute& attribute = selection.columns[c];
+    if (attribute_table<double>[attribute.row].gradient) {
+      attributes.columns.push_back(std::move(*next_gradient++));
+    } else {
+      attributes.columns.push_back({std::string(attribute.name), std::vector<double>(points.size())});
+      estimated.push_back(c);
+    }
+  }
+  if (selection.has_status) attributes.status.emplace(points.size());
+  if (estimated.empty() && !selection.has_status) return attributes;
   const std::size_t most = 64, margin = 0;
   for_each_point_block<Tag>(
       level_set, points, most, margin, [&](const auto& local, std::span<const std::size_t> numbers) {
@@ -35,16 +60,13 @@ void estimate_again(const Level_set_traits_3<Traits>& level_set, Estimator estim
           const Kernel::Point_3& p = points[n];
           const auto structure =
               local_structure<double>(local.taylor(p), {p.x(), p.y(), p.z()}, rounding(local, p), estimator);
-          for (std::size_t c = 0; c < selection.columns.size(); ++c) {
-            const Attribute& attribute = selection.columns[c];
-            if (!attribute_table<double>[attribute.row].gradient)
-              attributes.columns[c].values[n] = attribute.get(structure);
-          }
+          for (const std::size_t c : estimated) attributes.columns[c].values[n] = selection.columns[c].get(structure);
           if (attributes.status)
             (*attributes.status)[n] =
                 sampled_status.empty() ? structure.status : status_after_sampling(structure.status, sampled_status[n]);
         }
       });
+  return attributes;
 }
 
 } // namespace
@@ -71,13 +93,13 @@ Vertex_attributes attributes_of_source(const Source_function& function, Orientat
   return std::visit(
       [&]<class Traits>(const Traits& f) {
         const Level_set_traits_3<Traits> level_set(f, isovalue, orientation);
-        Vertex_attributes attributes;
-        if constexpr (is_fit<Traits>)
-          attributes = compute_attributes<Tag>(level_set, points, selection, sampled_status);
-        else attributes = vectorized::compute_attributes(level_set, points, selection, sampled_status);
-        if (estimator != Estimator::COMPACT)
-          estimate_again(level_set, estimator, points, selection, sampled_status, attributes);
-        return attributes;
+        const auto compute = [&](const Attribute_selection& attributes) {
+          if constexpr (is_fit<Traits>) return compute_attributes<Tag>(level_set, points, attributes, sampled_status);
+          else return vectorized::compute_attributes(level_set, points, attributes, sampled_status);
+        };
+        if (estimator == Estimator::COMPACT) return compute(selection);
+        return estimated_attributes(level_set, estimator, points, selection, sampled_status,
+                                    compute(gradients_of(selection)));
       },
       function);
 }

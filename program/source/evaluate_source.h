@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A source at many points, in threads. Formulas and splines use the vector instructions of the processor. Fits do not:
-// their linear algebra would sum in another order for each instruction set.
+// A source at many points, in threads. Formulas and splines use the vector instructions of the processor, but with the
+// paper's estimators. Fits do not: their linear algebra would sum in another order for each instruction set.
 #ifndef EQUIAFFINE_PROGRAM_SOURCE_EVALUATE_SOURCE_H
 #define EQUIAFFINE_PROGRAM_SOURCE_EVALUATE_SOURCE_H
 

@@ -100,7 +100,9 @@ CGAL::Surface_mesh<Kernel::Point_3> read_triangle_mesh(const std::string& path) 
   case File_format::PLY:
   case File_format::OBJ:
   case File_format::STL: return to_surface(read_points<Kernel>(path).mesh, path);
-  default: fail_to_read_mesh(path, "its extension is not known", "use one of .off .ply .obj .stl");
+  default:
+    open_input(path); // a folder or a missing file is called that
+    fail_to_read_mesh(path, "its extension is not known", "use one of .off .ply .obj .stl");
   }
 }
 

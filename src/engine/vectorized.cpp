@@ -13,7 +13,7 @@ template <class Function>
 const Engine<Function>& engine(Instruction_set set) {
   const auto sets = instruction_sets();
   check_argument(std::find(sets.begin(), sets.end(), set) != sets.end(),
-                 "this processor or this build has not the instruction set: give one of instruction_sets()");
+                 "this processor or this build does not have the instruction set: give one of instruction_sets()");
 #ifdef EQUIAFFINE_WITH_INSTRUCTION_SETS
   if (set == Instruction_set::AVX512) return std::get<Engine<Function>>(*equiaffine_engines_avx512());
   if (set == Instruction_set::AVX2) return std::get<Engine<Function>>(*equiaffine_engines_avx2());

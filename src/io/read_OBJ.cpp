@@ -62,7 +62,7 @@ private:
       ends_.push_back(corners_.size());
     } else if (!statement.empty() && std::find(std::begin(statements_to_skip), std::end(statements_to_skip),
                                                statement) == std::end(statements_to_skip)) {
-      fail("begins with '" + std::string(statement) + "', which is no statement of OBJ");
+      fail("begins with '" + std::string(statement) + "', which is not a statement of OBJ");
     }
   }
 
@@ -76,24 +76,25 @@ private:
   /// numbers count the vertices of the file from 1, negative ones those before the face from its end.
   std::size_t position(std::string_view corner) const {
     const auto number = parse_number<std::int64_t>(corner.substr(0, corner.find('/')));
-    if (!number) fail("has a face with a vertex that is no integer");
-    if (*number == 0 || *number < -std::int64_t(number_of_points_))
+    if (!number) fail("has a face with a vertex that is not an integer");
+    if (*number == 0 || *number < -std::int64_t(number_of_points_) ||
+        *number > std::numeric_limits<std::uint32_t>::max())
       fail("has a face with a vertex that does not exist");
     return *number > 0 ? std::size_t(*number) - 1 : number_of_points_ - std::size_t(-*number);
   }
 
-  /// Takes the next line without its comment. A line that ends with a backslash goes on in the next one.
+  /// Takes the next line without its comment. A vertex or a face that ends with a backslash goes on in the next line.
   std::string_view next_line() {
-    std::string_view line = take_line(rest_, line_number_);
-    if (line.ends_with('\\')) {
-      joined_.clear();
-      while (line.ends_with('\\')) {
-        joined_.append(line.substr(0, line.size() - 1)) += ' ';
-        line = take_line(rest_, line_number_);
-      }
-      line = joined_.append(line);
-    }
-    return line.substr(0, line.find('#'));
+    const auto next_part = [&] {
+      const std::string_view line = take_line(rest_, line_number_);
+      return line.substr(0, line.find('#'));
+    };
+    std::string_view line = next_part(), rest = line;
+    const std::string_view statement = take_word(rest);
+    if (!line.ends_with('\\') || (statement != "v" && statement != "f")) return line;
+    joined_.clear();
+    for (; line.ends_with('\\'); line = next_part()) joined_.append(line.substr(0, line.size() - 1)) += ' ';
+    return joined_.append(line);
   }
 
   /// Fails because of the line that has been taken last.

@@ -4,8 +4,6 @@
 #include <equiaffine/io/internal/input_file.h>
 #include <equiaffine/io/read_points.h>
 
-#include <boost/container_hash/hash.hpp>
-
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,46 +11,19 @@
 #include <cstdint>
 #include <istream>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace equiaffine::internal {
 
 namespace {
 
+using Corner = std::array<double, 3>;
+
 constexpr std::size_t bytes_of_header = 84, bytes_of_triangle = 50; // of binary STL
-
-/// Gives the corners of triangles on, those with the same coordinates as one point.
-class Corner_receiver {
-public:
-  Corner_receiver(const Mesh_receiver& receiver, const std::string& name) : receiver_(receiver), name_(name) {}
-
-  void add_corner(const std::array<double, 3>& p) {
-    const auto [found, is_new] = points_.try_emplace(p, std::uint32_t(points_.size()));
-    if (is_new) {
-      if (points_.size() > std::numeric_limits<std::uint32_t>::max())
-        fail_to_read(name_, "it has more vertices than 32 bits can count", "split it");
-      receiver_.add_point(p[0], p[1], p[2]);
-    }
-    face_.push_back(found->second);
-  }
-
-  std::size_t number_of_corners() const { return face_.size(); }
-
-  void end_triangle() {
-    receiver_.add_face(face_);
-    face_.clear();
-  }
-
-private:
-  const Mesh_receiver& receiver_;
-  const std::string& name_;
-  std::unordered_map<std::array<double, 3>, std::uint32_t, boost::hash<std::array<double, 3>>> points_ = {};
-  std::vector<std::uint32_t> face_ = {};
-};
 
 std::uint32_t little_endian(const char* bytes) {
   std::uint32_t word = 0;
@@ -60,80 +31,146 @@ std::uint32_t little_endian(const char* bytes) {
   return word;
 }
 
-/// The number of triangles that the header of a binary file announces; nothing if the text is shorter than a header.
-std::optional<std::size_t> announced_triangles(std::string_view text) {
-  if (text.size() < bytes_of_header) return std::nullopt;
-  return little_endian(text.data() + 80);
-}
-
-void read_binary_STL(std::string_view text, std::size_t triangles, Corner_receiver& corners) {
+std::vector<Corner> corners_of_binary_STL(std::string_view text, std::size_t triangles) {
+  std::vector<Corner> corners;
+  corners.reserve(3 * triangles);
   for (std::size_t t = 0; t < triangles; ++t) {
     Progress_observer::step();
     constexpr std::size_t bytes_of_normal = 12;
     const char* place = text.data() + bytes_of_header + t * bytes_of_triangle + bytes_of_normal;
     for (int corner = 0; corner < 3; ++corner) {
-      std::array<double, 3> p{};
-      for (double& x : p) {
+      for (double& x : corners.emplace_back()) {
         x = std::bit_cast<float>(little_endian(place));
         place += 4;
       }
-      corners.add_corner(p);
     }
-    corners.end_triangle();
   }
+  return corners;
 }
 
-/// Reads text: the words `vertex` with three numbers, and `endfacet` behind three of them; other words are left out.
-void read_text_STL(std::string_view rest, const std::string& name, Corner_receiver& corners) {
-  std::size_t line_number = 0;
-  const auto fail = [&](const std::string& reason) {
-    fail_to_read(name, "line " + std::to_string(line_number) + " " + reason, "correct the file or get it again");
-  };
+/// Takes words off the text of an STL file. Lines end with a line feed, a carriage return, or both.
+class Stl_scanner {
+public:
+  Stl_scanner(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
+
+  /// The next word in lower case; an empty one at the end.
+  std::string next_word() {
+    Progress_observer::step();
+    while (!rest_.empty() && blanks.find(rest_[0]) != std::string_view::npos) {
+      if (rest_[0] == '\n' || (rest_[0] == '\r' && !rest_.substr(1).starts_with('\n'))) ++line_;
+      rest_.remove_prefix(1);
+    }
+    std::string word(rest_.substr(0, rest_.find_first_of(blanks)));
+    rest_.remove_prefix(word.size());
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](char c) { return 'A' <= c && c <= 'Z' ? char(c + 32) : c; });
+    return word;
+  }
+
+  Corner next_corner() {
+    Corner corner{};
+    for (double& x : corner) {
+      const std::optional<double> number = parse_number<double>(next_word());
+      if (!number) fail("has a missing or unreadable coordinate");
+      x = *number;
+    }
+    return corner;
+  }
+
+  void skip_line() { rest_.remove_prefix(std::min(rest_.size(), rest_.find_first_of("\r\n"))); }
+
+  /// Fails because of the line of the last word.
+  [[noreturn]] void fail(const std::string& reason) const {
+    fail_to_read(name_, "line " + std::to_string(line_) + " " + reason, "correct the file or get it again");
+  }
+
+private:
+  static constexpr std::string_view blanks = " \t\r\n\v\f";
+
+  std::string_view rest_;
+  const std::string& name_;
+  std::size_t line_ = 1;
+};
+
+/// Reads the words `vertex`, each before three numbers, and `endfacet` behind three of them. Names behind `solid` and
+/// `endsolid` extend to the end of their line, and other words are left out.
+std::vector<Corner> corners_of_text_STL(std::string_view text, const std::string& name) {
+  std::vector<Corner> corners;
+  std::size_t corners_of_facets = 0;
   bool is_complete = false;
-  while (!rest.empty()) {
-    std::string_view line = take_line(rest, line_number);
-    for (std::string word(take_word(line)); !word.empty(); word = take_word(line)) {
-      std::transform(word.begin(), word.end(), word.begin(),
-                     [](char c) { return 'A' <= c && c <= 'Z' ? char(c + 32) : c; });
-      if (word == "solid" || word == "endsolid") {
-        is_complete = word == "endsolid";
-        break; // a name follows
-      }
-      if (word == "vertex") {
-        std::array<double, 3> p{};
-        for (double& x : p) {
-          const std::optional<double> number = parse_number<double>(take_word(line));
-          if (!number) fail("has a missing or unreadable coordinate");
-          x = *number;
-        }
-        corners.add_corner(p);
-      } else if (word == "endfacet") {
-        if (corners.number_of_corners() != 3) fail("ends a facet that is no triangle");
-        corners.end_triangle();
-      }
+  Stl_scanner scanner(text, name);
+  for (std::string word = scanner.next_word(); !word.empty(); word = scanner.next_word()) {
+    if (word == "solid" || word == "endsolid") {
+      is_complete = word == "endsolid";
+      scanner.skip_line();
+    } else if (word == "vertex") {
+      corners.push_back(scanner.next_corner());
+    } else if (word == "endfacet") {
+      if (corners.size() != corners_of_facets + 3) scanner.fail("ends a facet that is not a triangle");
+      corners_of_facets = corners.size();
     }
   }
-  if (!is_complete || corners.number_of_corners() > 0)
+  if (!is_complete || corners.size() != corners_of_facets)
     fail_to_read(name, "it ends before the word endsolid", "get the complete file again");
+  return corners;
+}
+
+/// The first of the corners with the same coordinates, for each corner. Zeros of both signs are the same, and so are NaN
+/// with the same bits. Sorting takes the same time whatever the coordinates are.
+std::vector<std::size_t> first_of_same(const std::vector<Corner>& corners) {
+  const auto bits = [&](std::size_t c) {
+    const auto& [x, y, z] = corners[c];
+    return std::array{std::bit_cast<std::uint64_t>(x + 0.0), std::bit_cast<std::uint64_t>(y + 0.0),
+                      std::bit_cast<std::uint64_t>(z + 0.0)};
+  };
+  std::vector<std::size_t> order(corners.size()), first(corners.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const auto of_a = bits(a), of_b = bits(b);
+    return of_a < of_b || (of_a == of_b && a < b);
+  });
+  for (std::size_t n = 0; n < order.size(); ++n)
+    first[order[n]] = n > 0 && bits(order[n]) == bits(order[n - 1]) ? first[order[n - 1]] : order[n];
+  return first;
+}
+
+std::vector<Corner> corners_of_STL(std::string_view text, const std::string& name) {
+  const bool has_header = text.size() >= bytes_of_header;
+  const std::uint32_t triangles = has_header ? little_endian(text.data() + 80) : 0;
+  const std::uint64_t binary_size = bytes_of_header + std::uint64_t(triangles) * bytes_of_triangle;
+  // Many binary files begin with the word solid, too. Their numbers of triangles, or what pads their names, have zeros.
+  const std::string_view header = text.substr(0, bytes_of_header);
+  if (binary_size != text.size() && header.find('\0') == std::string_view::npos) {
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3); // a byte order mark
+    if (Stl_scanner(text, name).next_word() == "solid") return corners_of_text_STL(text, name);
+  }
+  if (!has_header) fail_to_read(name, "it is not an STL file", "get the complete file again");
+  if (binary_size > text.size())
+    fail_to_read(name, "it announces " + std::to_string(triangles) + " triangles and ends before the last one",
+                 "get the complete file again");
+  return corners_of_binary_STL(text, triangles);
 }
 
 } // namespace
 
 void read_STL_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver) {
-  const std::string text = read_all(stream);
-  Corner_receiver corners(receiver, name);
-  // Many binary files begin with the word solid, too, so that the size of the file decides.
-  const std::optional<std::size_t> triangles = announced_triangles(text);
-  const std::size_t binary_size = triangles ? bytes_of_header + *triangles * bytes_of_triangle : 0;
-  if (triangles && binary_size == text.size()) return read_binary_STL(text, *triangles, corners);
-  std::string_view begin = std::string_view(text).substr(0, 1000);
-  if (take_word(begin) == "solid") return read_text_STL(text, name, corners);
-  if (!triangles || binary_size > text.size())
-    fail_to_read(name,
-                 triangles ? "it announces " + std::to_string(*triangles) + " triangles and ends before the last one"
-                           : "it is no STL file",
-                 "get the complete file again");
-  read_binary_STL(text, *triangles, corners);
+  const std::vector<Corner> corners = corners_of_STL(read_all(stream), name);
+  if (corners.size() > std::numeric_limits<std::uint32_t>::max())
+    fail_to_read(name, "it has more corners of triangles than 32 bits can count", "split it");
+  const std::vector<std::size_t> first = first_of_same(corners);
+  std::vector<std::uint32_t> vertices(corners.size()), face;
+  std::uint32_t count = 0;
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    if (first[c] == c) {
+      receiver.add_point(corners[c][0], corners[c][1], corners[c][2]);
+      vertices[c] = count++;
+    }
+    face.push_back(vertices[first[c]]);
+    if (face.size() == 3) {
+      receiver.add_face(face);
+      face.clear();
+    }
+  }
 }
 
 } // namespace equiaffine::internal

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -273,6 +274,7 @@ TEST(Read_points, obj_may_have_textures_groups_polygons_and_relative_vertices) {
   const Mesh mesh = obj(head + "v 1 1 0\ng side\nv +0 1e0 \\\n 0\nusemtl b\nf 1/1/1 2//1 3/1 4\nf -4 -3 -2\nl 1 2\n");
   EXPECT_EQ(mesh.points, (std::vector<Point_3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
   EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 1, 2}}));
+  EXPECT_EQ(obj("# made in C:\\\\models\\\\\nmtllib C:\\\\\nv 1 2 3\n").points, (std::vector<Point_3>{{1, 2, 3}}));
   EXPECT_EQ(obj("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0").triangles, (Triangles{{0, 1, 2}})) << "vertices behind a face";
 }
 
@@ -282,13 +284,13 @@ TEST(Read_points, mistakes_in_obj_are_told_with_the_line) {
     EXPECT_NE(error_of(obj, text).find(reason), std::string::npos) << text << error_of(obj, text);
   };
   for (const char* face : {"f 1 2 2.5\n", "f 1/1/1 2//2 3x\n", "f 1 - 2\n", "f 1 2 99999999999999999999\n"})
-    expect(points + face, "line 4 has a face with a vertex that is no integer");
-  for (const char* face : {"f 1 2 0\n", "f 1 2 -4\n"})
+    expect(points + face, "line 4 has a face with a vertex that is not an integer");
+  for (const char* face : {"f 1 2 0\n", "f 1 2 -4\n", "f 1 2 4294967297\n"})
     expect(points + face, "line 4 has a face with a vertex that does not exist");
   expect(points + "f 1 2 3\nf 1 2 4\n", "face 1, counted from 0, has a vertex that does not exist");
   expect("v 0 0\n", "line 1 has a missing or unreadable coordinate");
   expect("v 0 0 \\\n z\n", "line 2 has a missing or unreadable coordinate");
-  expect(points + "this is no mesh\n", "line 4 begins with 'this', which is no statement of OBJ");
+  expect(points + "this is no mesh\n", "line 4 begins with 'this', which is not a statement of OBJ");
   expect("# nothing\n", "it has no vertices");
 }
 
@@ -308,7 +310,27 @@ TEST(Read_points, binary_stl_may_begin_with_the_word_solid) {
   std::string bytes = stream.str();
   bytes.replace(0, 6, "solid ");
   EXPECT_EQ(stl(bytes).triangles.size(), square().triangles.size());
+  EXPECT_EQ(stl(bytes + "more").triangles.size(), square().triangles.size());
   EXPECT_EQ(stl("header" + stream.str().substr(6) + "more").triangles.size(), square().triangles.size());
+}
+
+TEST(Read_points, stl_as_text_may_have_capitals_and_other_line_ends) {
+  std::string text = text_stl;
+  for (char& c : text) c = c == '\n' ? '\r' : char(std::toupper(c));
+  EXPECT_EQ(stl("\xef\xbb\xbf" + text).triangles, stl(text_stl).triangles);
+  std::string words = text_stl;
+  for (std::size_t n = words.find('\n') + 1; n < words.rfind("endsolid") - 1; ++n)
+    if (words[n] == ' ') words[n] = '\n';
+  EXPECT_EQ(stl(words).points, stl(text_stl).points);
+}
+
+TEST(Read_points, corners_of_stl_that_are_not_numbers_take_no_longer) {
+  constexpr std::uint32_t triangles = 100000;
+  std::string bytes(84 + 50 * triangles, '\xff');
+  for (int i = 0; i < 4; ++i) bytes[80 + std::size_t(i)] = char(triangles >> 8 * i & 255);
+  const Mesh mesh = stl(bytes);
+  EXPECT_EQ(mesh.triangles.size(), triangles);
+  EXPECT_EQ(mesh.points.size(), 1U) << "all have the same bits";
 }
 
 TEST(Read_points, no_beginning_of_an_stl_file_is_taken_for_the_whole) {
@@ -319,9 +341,9 @@ TEST(Read_points, no_beginning_of_an_stl_file_is_taken_for_the_whole) {
   equiaffine::write_STL(stream, square());
   for (std::size_t size = 1; size < stream.str().size(); ++size)
     EXPECT_NE(error_of(stl, stream.str().substr(0, size)), "no error") << size;
-  EXPECT_NE(error_of(stl, "this is no mesh").find("it is no STL file"), std::string::npos);
+  EXPECT_NE(error_of(stl, "this is no mesh").find("it is not an STL file"), std::string::npos);
   EXPECT_NE(error_of(stl, "solid\nfacet\nvertex 0 0\n").find("line 3 has a missing"), std::string::npos);
-  EXPECT_NE(error_of(stl, "solid\nvertex 0 0 0\nendfacet\n").find("line 3 ends a facet that is no triangle"),
+  EXPECT_NE(error_of(stl, "solid\nvertex 0 0 0\nendfacet\n").find("line 3 ends a facet that is not a triangle"),
             std::string::npos);
 }
 

@@ -35,6 +35,19 @@ TEST_F(Program_command_line, the_estimators_of_the_paper_can_be_chosen) {
   EXPECT_EQ(row("direct-z", "0.6,0.8,0")["status"], "outside");
   EXPECT_EQ(row("direct-z", "0.6,0.8,0")["affine_gaussian_curvature"], "nan");
 
+  // Norms of gradients are those of every estimator.
+  const auto quartic = [&](const std::string& estimator) {
+    const std::string names = "affine_gaussian_curvature,affine_gaussian_curvature_gradient,affine_mean_curvature";
+    return rows(run_well({"evaluate", "--function", "x^4 + y^4 + z^4", "--attributes", names, "--estimator", estimator,
+                          "--points", "-", "-o", "-"},
+                         "x,y,z\n0.5,0.6,0.7\n"))
+        .at(0);
+  };
+  auto expected = quartic("compact"), direct = quartic("direct-z");
+  for (const char* name : {"affine_gaussian_curvature", "affine_mean_curvature"})
+    EXPECT_NEAR(std::stod(direct[name]) / std::stod(expected[name]), 1, rounding) << name;
+  EXPECT_EQ(direct["affine_gaussian_curvature_gradient"], expected["affine_gaussian_curvature_gradient"]);
+
   const auto mesh = [&](const Arguments& choice) {
     run_well(Arguments{"mesh", "-o", "s.csv", "--resolution", "5"} + sphere + choice);
     return file("s.csv");

@@ -20,7 +20,6 @@ namespace command_line_fixture {
 
 using namespace equiaffine::test;
 
-using Arguments = std::vector<std::string>;
 using Json = nlohmann::json;
 
 /// 1000 roundings: enough for every number compared here, at points where the invariants are well conditioned.
@@ -38,11 +37,6 @@ inline const std::string further_names =
     "affine_k1,affine_k2,direction1_x,direction1_y,direction1_z,direction2_x,direction2_y,"
     "direction2_z,metric_xx,metric_xy,metric_xz,metric_yy,metric_yz,metric_zz";
 inline const std::string later_basic_names = "affine_normal_angle,affine_area_density";
-
-inline Arguments operator+(Arguments first, const Arguments& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
 
 inline Arguments split(const std::string& text, char separator) {
   Arguments parts;

@@ -14,14 +14,7 @@ namespace errors_fixture {
 
 using namespace equiaffine::test;
 
-using Arguments = std::vector<std::string>;
-
 inline const Arguments box = {"--box", "-2", "2", "-2", "2", "-2", "2"};
-
-inline Arguments operator+(Arguments first, const Arguments& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
 
 inline Arguments mesh_of(const std::string& expression) {
   return Arguments{"mesh", "--function", expression, "-o", "out.ply"};

@@ -16,7 +16,6 @@
 namespace spline_test {
 
 using namespace equiaffine::test;
-using Arguments = std::vector<std::string>;
 using Json = nlohmann::json;
 
 // The level sets are ellipsoids and f is not a polynomial: K = 1 / 0.72, H = -sqrt(K), J = 0.
@@ -27,11 +26,6 @@ const Arguments ellipsoid = {"--function", "exp(x^2 + y^2/0.81 + z^2/0.64 - 1) -
                              "1.1",        "--derivatives",
                              "spline"};
 const double gaussian = 1 / 0.72;
-
-Arguments operator+(Arguments first, const Arguments& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
 
 using Table = std::map<std::string, std::vector<double>>;
 

@@ -14,13 +14,7 @@
 
 namespace equiaffine::test {
 
-using Arguments = std::vector<std::string>;
 using Mesh = equiaffine::Annotated_mesh_3<CGAL::Simple_cartesian<double>>;
-
-inline Arguments operator+(Arguments first, const Arguments& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
 
 class Written_meshes_test : public Program_test {
 protected:

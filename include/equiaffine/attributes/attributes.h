@@ -172,6 +172,8 @@ void measure_gradients(const Traits& traits, std::span<const typename Traits::Po
 template <class ConcurrencyTag, class Traits>
 Vertex_attributes compute_columns(const Traits& traits, std::span<const typename Traits::Point_3> points,
                                   const Attribute_selection& selection, std::span<const Point_status> sampled_status) {
+  check_argument(sampled_status.empty() || sampled_status.size() == points.size(),
+                 "attributes are given the statuses of another number of points: give one per point, or none");
   Vertex_attributes result;
   if (selection.columns.empty() && !selection.has_status) return result;
   for (const Attribute& attribute : selection.columns) {
@@ -228,7 +230,7 @@ Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, 
 /// local_structure_at: bit for bit if the compiler rounds each product and each sum (-ffp-contract=off), else to within
 /// rounding.
 ///
-/// `sampled_status` is empty or has one entry per point, as in local_structure_at.
+/// `sampled_status` is empty or has one entry per point, as in local_structure_at. \throw std::invalid_argument otherwise
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|

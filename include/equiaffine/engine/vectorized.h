@@ -49,8 +49,8 @@ namespace equiaffine::vectorized {
 /// BASELINE there are some on x86-64 under Linux.
 std::vector<Instruction_set> instruction_sets();
 
-/// Meshes a level set as equiaffine::marching_cubes() does, on a grid with so many nodes along each axis. Empty space
-/// is skipped, and work is done in threads if the library is compiled with TBB. As many points are evaluated as there.
+/// Meshes a level set as equiaffine::marching_cubes() does, on a grid with that many nodes along each axis. It skips empty
+/// space, works in threads if the library is compiled with TBB, and evaluates f as often as that function does.
 ///
 /// \code{.cpp}
 /// using namespace equiaffine;
@@ -68,9 +68,9 @@ Isosurface_3<Kernel> marching_cubes(const Level_set_traits_3<Spline>& level_set,
                                     Vertex_position vertices = Vertex_position::PROJECTED,
                                     Instruction_set set = instruction_sets().back());
 
-/// Computes the selected attributes of points as equiaffine::compute_attributes() does, with as many expansions, in
-/// threads if the library is compiled with TBB. `sampled_status` is empty or has one entry per point.
-/// \throw std::invalid_argument if `set` is not in instruction_sets()
+/// Computes the selected attributes of points as equiaffine::compute_attributes() does, by the same number of expansions,
+/// in threads if the library is compiled with TBB. `sampled_status` is empty or has one entry per point.
+/// \throw std::invalid_argument if it has another number of entries, or `set` is not in instruction_sets()
 Vertex_attributes compute_attributes(const Level_set_traits_3<Formula>& level_set,
                                      std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
                                      std::span<const Point_status> sampled_status = {},
@@ -82,7 +82,7 @@ Vertex_attributes compute_attributes(const Level_set_traits_3<Spline>& level_set
                                      Instruction_set set = instruction_sets().back());
 
 /// The greatest distance of points from a level set, to first order, as equiaffine::max_distance_to_surface() computes
-/// it, with as many evaluations, in threads if the library is compiled with TBB.
+/// it, by the same number of evaluations, in threads if the library is compiled with TBB.
 /// \throw std::invalid_argument if there are statuses, but not one per point, or `set` is not in instruction_sets()
 double max_distance_to_surface(const Level_set_traits_3<Formula>& level_set, std::span<const Kernel::Point_3> points,
                                std::span<const Point_status> status = {},

@@ -129,7 +129,7 @@ Indexed_triangle_mesh_3<Kernel> read_OFF(std::istream& stream, const std::string
 }
 
 /// Reads OBJ: points and faces, the latter cut into triangles. Normals, textures, colors, lines and groups are left out.
-/// `name` stands for the file in messages. Throws `Input_error` for what is no OBJ file, and for faces with vertices that
+/// `name` stands for the file in messages. Throws `Input_error` for what is not an OBJ file, and for faces with vertices that
 /// do not exist.
 template <class Kernel>
 Indexed_triangle_mesh_3<Kernel> read_OBJ(std::istream& stream, const std::string& name) {

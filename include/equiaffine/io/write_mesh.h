@@ -23,7 +23,9 @@
 #include <vector>
 
 namespace equiaffine {
+
 struct Indexed_polygons;
+
 } // namespace equiaffine
 
 namespace equiaffine::internal {

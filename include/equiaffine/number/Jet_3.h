@@ -15,9 +15,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace equiaffine {
-
-namespace internal {
+namespace equiaffine::internal {
 
 /// a^p, given its value. Powers and logarithms are composed from a / a_0, which is near 1 at any scale of a: powers of
 /// a_0 itself would overflow.
@@ -48,15 +46,18 @@ auto exponential(const Jet_3<T, Order, A>& a, const T& e) {
          e;
 }
 
-} // namespace internal
+} // namespace equiaffine::internal
+
+namespace equiaffine {
 
 /// @{
-/// The expansion of the function of this name, where the arguments are functions with the given expansions.
+/// The expansion of the function of this name where the arguments are functions with the given expansions.
 template <class T, int Order, Monomial_set A>
 auto exp(const Jet_3<T, Order, A>& a) {
   return internal::exponential(a, internal::exp_value(a.value()));
 }
 
+/// The natural logarithm.
 template <class T, int Order, Monomial_set A>
 auto log(const Jet_3<T, Order, A>& a) {
   using std::log;
@@ -83,6 +84,7 @@ auto sqrt(const Jet_3<T, Order, A>& a) {
                   (internal::homogeneous_part<5>(a) - (s1_twice * s4 + (s2 + s2) * s3)) * half);
 }
 
+/// The cube root.
 template <class T, int Order, Monomial_set A>
 auto cbrt(const Jet_3<T, Order, A>& a) {
   using std::cbrt;
@@ -115,6 +117,7 @@ auto pow(const Jet_3<T, Order, A>& a, const S& exponent) requires(!std::is_integ
   return internal::real_power(a, T(pow(a.value(), T(exponent))), T(exponent));
 }
 
+/// A power whose exponent is a function, too: exp(b log(a)), and zero where a is zero and b positive.
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto pow(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   using std::log;
@@ -128,6 +131,7 @@ auto pow(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   return internal::exponential(exponent, T(pow(a.value(), b.value())));
 }
 
+/// The same for a constant base.
 template <class T, int Order, Monomial_set A, JetScalar<T> S>
 auto pow(const S& base, const Jet_3<T, Order, A>& exponent) {
   using std::log;

@@ -57,9 +57,9 @@ public:
                    "zmax)");
   }
 
-  /// The same lattice in another kernel.
+  /// The same lattice in another kernel with numbers of the same type.
   template <class Other>
-  explicit Lattice_3(const Lattice_3<Other>& other)
+  explicit Lattice_3(const Lattice_3<Other>& other) requires std::is_same_v<typename Other::FT, FT>
       : Lattice_3(other.size(), convert_point<Kernel>(other.origin()),
                   {in_kernel(other.steps()[0]), in_kernel(other.steps()[1]), in_kernel(other.steps()[2])}) {}
 

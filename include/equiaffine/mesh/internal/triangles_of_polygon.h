@@ -2,6 +2,8 @@
 #ifndef EQUIAFFINE_MESH_INTERNAL_TRIANGLES_OF_POLYGON_H
 #define EQUIAFFINE_MESH_INTERNAL_TRIANGLES_OF_POLYGON_H
 
+#include <equiaffine/base/Progress_observer.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -40,6 +42,7 @@ public:
     std::vector<Triangle> result;
     std::size_t start = 0;
     while (corners.size() > 3) {
+      Progress_observer::step();
       const auto ear = find_ear(corners, start);
       if (!ear) return fan;
       result.push_back(triangle_at(corners, *ear));
