@@ -57,11 +57,12 @@ public:
   std::string next_word() {
     Progress_observer::step();
     while (!rest_.empty() && blanks.find(rest_[0]) != std::string_view::npos) {
-      if (rest_[0] == '\n' || (rest_[0] == '\r' && !rest_.substr(1).starts_with('\n'))) ++line_;
+      if (rest_[0] == '\n' || (rest_[0] == '\r' && !rest_.substr(1).starts_with('\n'))) ++next_line_;
       rest_.remove_prefix(1);
     }
     std::string word(rest_.substr(0, rest_.find_first_of(blanks)));
     rest_.remove_prefix(word.size());
+    if (!word.empty()) line_ = next_line_;
     std::transform(word.begin(), word.end(), word.begin(),
                    [](char c) { return 'A' <= c && c <= 'Z' ? char(c + 32) : c; });
     return word;
@@ -89,7 +90,7 @@ private:
 
   std::string_view rest_;
   const std::string& name_;
-  std::size_t line_ = 1;
+  std::size_t line_ = 1, next_line_ = 1; ///< of the last word, and of what follows
 };
 
 /// Reads the words `vertex`, each before three numbers, and `endfacet` behind three of them. Names behind `solid` and

@@ -261,12 +261,15 @@ TEST(Read_points, obj_and_stl_come_back_as_they_were_written) {
   equiaffine::write_OBJ(obj_stream, square());
   EXPECT_EQ(obj(obj_stream.str()).points, square().points);
   EXPECT_EQ(obj(obj_stream.str()).triangles, square().triangles);
-  equiaffine::write_STL(stl_stream, square());
+  const Mesh mesh = square();
+  equiaffine::write_STL(stl_stream, mesh);
   const Mesh copy = stl(stl_stream.str());
-  ASSERT_EQ(copy.triangles.size(), square().triangles.size());
+  ASSERT_EQ(copy.triangles.size(), mesh.triangles.size());
   for (std::size_t t = 0; t < copy.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_EQ(copy.points[copy.triangles[t][k]], square().points[square().triangles[t][k]]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Point_3& p = mesh.points[mesh.triangles[t][k]];
+      EXPECT_EQ(copy.points[copy.triangles[t][k]], Point_3(float(p.x()), float(p.y()), float(p.z())));
+    }
 }
 
 TEST(Read_points, obj_may_have_textures_groups_polygons_and_relative_vertices) {
