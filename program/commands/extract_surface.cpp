@@ -237,12 +237,12 @@ void remove_isolated_vertices(Isosurface_3<Kernel>& surface) {
 
 } // namespace
 
-void remove_crumbs(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const Source_options& options) {
+void remove_small_fragments(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const Source_options& options) {
   constexpr double reach = 2.5; // in spacings, from side to side
   const std::size_t n = surface.points.size();
   auto parts = components_of(surface);
   std::vector<CGAL::Bbox_3> boxes(n);
-  std::vector<bool> have_border(n, false), are_crumbs(n, false);
+  std::vector<bool> have_border(n, false), are_fragments(n, false);
   const auto back =
       options.transformation ? options.transformation->inverse() : CGAL::Aff_transformation_3<Kernel>(CGAL::IDENTITY);
   const auto to_data = [&](const Kernel::Point_3& p) { return options.transformation ? back(p) : p; };
@@ -254,11 +254,11 @@ void remove_crumbs(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const S
     });
   });
   for (std::uint32_t v = 0; v < n; ++v)
-    are_crumbs[v] = parts.find(v) == v && have_border[v] &&
-                    diagonal(boxes[v]) < reach * fit.spacing(to_data(surface.points[v])) &&
-                    !is_cut_off(boxes[v], fit.bbox(), nodes);
-  if (std::find(are_crumbs.begin(), are_crumbs.end(), true) == are_crumbs.end()) return;
-  std::erase_if(surface.triangles, [&](const auto& t) { return are_crumbs[parts.find(t[0])]; });
+    are_fragments[v] = parts.find(v) == v && have_border[v] &&
+                       diagonal(boxes[v]) < reach * fit.spacing(to_data(surface.points[v])) &&
+                       !is_cut_off(boxes[v], fit.bbox(), nodes);
+  if (std::find(are_fragments.begin(), are_fragments.end(), true) == are_fragments.end()) return;
+  std::erase_if(surface.triangles, [&](const auto& t) { return are_fragments[parts.find(t[0])]; });
   remove_isolated_vertices(surface);
 }
 

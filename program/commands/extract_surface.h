@@ -35,9 +35,9 @@ bool changes_sign_at_poles_only(const Source_function& function, double isovalue
                                        const Vain_search& search);
 
 /// Removes the parts of the zero set of a fit that have a border and are no larger than what the band of one point
-/// reaches: crumbs beside the border of the surface, where the band is ragged. A polynomial needs the points of a
+/// reaches: small fragments beside the border of the surface, where the band is ragged. A polynomial needs the points of a
 /// larger part.
-void remove_crumbs(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const Source_options& options);
+void remove_small_fragments(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const Source_options& options);
 
 /// Keeps the connected components with the greatest areas, and `values`, one per vertex or none, of their vertices.
 /// Returns how many components are left out.

@@ -161,7 +161,7 @@ Annotated_surface annotated_surface(const Source& source, const Mesh_options& op
                                     Attribute_time time, Progress& progress) {
   Annotated_surface surface = sample(source.function, options, std::move(remesh), progress);
   if (source.fit && !surface.remesh) {
-    remove_crumbs(surface.mesh, *source.fit, options.source);
+    remove_small_fragments(surface.mesh, *source.fit, options.source);
     if (surface.mesh.triangles.empty())
       fail_without_surface(source.function, options.source, options.isovalue, {"box", "a finer --resolution", false});
     if (std::holds_alternative<Marching_cubes_options>(options.method))

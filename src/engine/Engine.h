@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The functions that engine_entry.cpp defines for one instruction set. The names of the entries are those of C, so that the build can
-// tell them from all else in the object files, see CMakeLists.txt.
+// The functions that engine_entry.cpp defines for one instruction set. The names of the entries are those of C, so that
+// the build can tell them from all else in the object files, see CMakeLists.txt.
 #ifndef EQUIAFFINE_SRC_ENGINE_ENGINE_H
 #define EQUIAFFINE_SRC_ENGINE_ENGINE_H
 

@@ -125,7 +125,7 @@ TEST_F(Program_fit, pages_show_what_can_be_trusted) {
   EXPECT_NE(file("fit.ply").find("affine_gaussian_curvature_error"), std::string::npos);
 }
 
-TEST_F(Program_fit_long, an_open_surface_ends_with_the_data_and_has_no_crumbs) {
+TEST_F(Program_fit_long, an_open_surface_ends_with_the_data_and_has_no_small_fragments) {
   const Arguments torus = {"--function", "(sqrt(x^2+y^2)-1)^2+z^2-0.16", "--box", "-1.5", "1.5", "0", "1.5", "-0.5",
                            "0.5"};
   run_well(Arguments{"mesh", "--resolution", "40", "--attributes", "none", "-o", "open.ply"} + torus);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a Delaunay mesh is asked for: its criteria, and how the size of its facets varies.
+// The criteria that a Delaunay mesh has to meet, and how the size of its facets varies.
 #ifndef EQUIAFFINE_DELAUNAY_DELAUNAY_CRITERIA_H
 #define EQUIAFFINE_DELAUNAY_DELAUNAY_CRITERIA_H
 

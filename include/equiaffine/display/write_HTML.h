@@ -40,7 +40,7 @@ struct Html_options {
   std::optional<Color_scale> scale = {};
   /// The attributes named here have these mappings, such as those of another page, whatever their own numbers are.
   std::map<std::string, Color_mapping> mappings = {};
-  /// What follows the labels and symbols of the library's quantities, such as " at scale 0.1".
+  /// The text behind the labels and symbols of the library's quantities, such as " at scale 0.1".
   std::string label_suffix = {};
   /// A table that says what the surface is and how it was made.
   std::vector<std::pair<std::string, std::string>> description = {};
@@ -79,7 +79,7 @@ bool is_consistent(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_att
          });
 }
 
-/// What a page shows of a mesh of any kernel.
+/// The parts of a mesh of any kernel that a page shows.
 struct Page_surface {
   template <class Kernel>
   Page_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes)

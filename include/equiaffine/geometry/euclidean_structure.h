@@ -71,7 +71,7 @@ void set_principal_curvatures(Euclidean_structure_3<FT>& s, const FT& radius) {
   const auto first_is_larger = s.mean_curvature >= zero;
   const FT larger = s.mean_curvature + select(first_is_larger, radius, FT(-radius));
   const FT smaller = select(larger == zero, zero, FT(s.gaussian_curvature / larger));
-  // At an umbilic both have to be equal in spite of rounding.
+  // At an umbilic k1 and k2 have to be equal in spite of rounding.
   s.k1 = select(first_is_larger || smaller < larger, larger, smaller);
   s.k2 = select(first_is_larger && smaller < larger, smaller, larger);
 }

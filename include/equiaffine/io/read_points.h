@@ -26,7 +26,7 @@
 
 namespace equiaffine::internal {
 
-/// What the readers of the library call with the elements of a file, so that a mesh of any kernel can be made of them.
+/// The functions that a reader calls with the elements of a file, so that a mesh of any kernel can be made of them.
 struct Mesh_receiver {
   std::function<void(std::size_t points, std::size_t faces)> reserve; ///< before the points, with what is announced
   std::function<void(double x, double y, double z)> add_point;
@@ -44,7 +44,7 @@ Mesh_receiver receiver_of(Indexed_triangle_mesh_3<Kernel>& mesh) {
           [&](const std::vector<std::uint32_t>& face) { add_triangles_of_polygon(mesh.points, face, mesh.triangles); }};
 }
 
-/// What a table of points has besides its points.
+/// The header, the cells and the columns of a table of points.
 struct Csv_cells {
   std::vector<std::string> header, cells; ///< the cells are as they were written, row by row
   char separator = ',';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the library asks of the compiler. Refuses flags under which it does not compile, or computes something else: whatever
-// else a header needs, it includes this one, if only by way of others.
+// This header refuses flags of the compiler under which the library does not compile, or computes something else. Every
+// header includes it, if only through others.
 #ifndef EQUIAFFINE_BASE_INTERNAL_COMPILER_H
 #define EQUIAFFINE_BASE_INTERNAL_COMPILER_H
 

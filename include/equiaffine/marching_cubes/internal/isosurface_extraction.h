@@ -194,7 +194,7 @@ Grid_rows write_triangles(const Isosurface_plan& plan, Index_triangle* triangles
 
 // Vertices of Marching Cubes are known by their places in the grid, whatever part of it they were found in.
 
-/// Where a vertex lies: on the edge that begins at a node along the axis `slot`, or, from slot 3 on, in the cell that
+/// The place of a vertex: on the edge that begins at a node along the axis `slot`, or, from slot 3 on, in the cell that
 /// begins there.
 struct Vertex_place {
   std::array<std::size_t, 3> node;
