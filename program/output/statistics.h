@@ -62,7 +62,7 @@ struct Annotation_statistics : Mesh_facts {
 
 std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_status> status);
 
-/// One object, see `equiaffine mesh --help`. A distance that is not a finite number is null.
+/// One object, see the section on statistics of doc/program.md. A distance that is not a finite number is null.
 std::string to_JSON(const Statistics& statistics);
 
 /// One object, see the section on statistics of doc/program.md. A number that does not exist is null.

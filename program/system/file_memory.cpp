@@ -187,7 +187,7 @@ int allocate_at_end(Scratch& s, std::size_t size) {
   std::byte* const memory = s.first + s.end;
   if (::mmap(memory, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, s.file, off_t(s.end)) == MAP_FAILED)
     return errno;
-  ::madvise(memory, size, MADV_RANDOM); // pages that nobody asks for take room from others
+  ::madvise(memory, size, MADV_RANDOM); // pages read ahead would take the place of others
   add_reclaimable_memory(memory, size);
   s.size_at[s.end] = size;
   s.end += size;

@@ -31,7 +31,7 @@ enum class File_format {
 /// The format that the extension of a path stands for, in lower or upper case.
 File_format file_format(const std::string& path);
 
-/// The name of a file or folder without the folders above it, which are nobody else's business. It is what files that
+/// The name of a file or folder without the folders above it, which others need not see. It is what files that
 /// are passed on, such as pages and statistics, call a source.
 inline std::string name_of_file(const std::filesystem::path& path) {
   const std::filesystem::path normal = path.lexically_normal();

@@ -28,7 +28,7 @@ inline Vector times(double s, const Vector& v) { return {s * v[0], s * v[1], s *
 inline double distance(const Vector& a, const Vector& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 inline double relative_difference(const Vector& a, const Vector& b) { return distance(a, b) / std::sqrt(dot(b, b)); }
 
-/// The scale S of design/affine_structure.md: errors of K are measured by S, of H and J by sqrt(S).
+/// S = |K| + H^2 + |K_e|^(3/2): errors of K are parts of S, those of H and J parts of sqrt(S).
 inline double scale(const Local_structure_3<double>& s) {
   return std::abs(s.affine.gaussian_curvature) + s.affine.mean_curvature * s.affine.mean_curvature +
          std::pow(std::abs(s.euclidean.gaussian_curvature), 1.5);
