@@ -13,7 +13,6 @@
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Simple_cartesian.h>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include <gtest/gtest.h>
 
@@ -108,8 +107,8 @@ TYPED_TEST(Every_sampler, makes_triangles_that_are_counterclockwise_seen_from_th
 /// What differences of the affine curvatures are to be compared with.
 double scale(double K, double H, double K_e) { return std::abs(K) + H * H + std::pow(std::abs(K_e), 1.5); }
 
-TYPED_TEST(Every_sampler, has_the_curvatures_of_50_digits_at_its_vertices) {
-  using Number = boost::multiprecision::cpp_bin_float_50;
+TYPED_TEST(Every_sampler, has_the_curvatures_of_extended_precision_at_its_vertices) {
+  using Number = long double;
   for (const Named_surface& s : surfaces) {
     const auto traits = traits_of(s);
     const auto surface = TypeParam::sample(traits);
