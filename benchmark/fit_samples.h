@@ -58,7 +58,7 @@ inline Samples sample(const Surface& s, double count) {
   const Exact exact(Expression_3(s.formula), s.box);
   double radius = 0.03;
   for (;;) {
-    const auto mesh = delaunay_surface(exact, {30, radius, 1});
+    const auto mesh = delaunay_surface(exact, {.radius = radius, .distance = 1});
     const double vertices = double(mesh.points.size());
     if (std::abs(vertices / count - 1) > 0.05) {
       radius *= std::sqrt(vertices / count);

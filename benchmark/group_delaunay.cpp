@@ -180,7 +180,7 @@ void compare(const std::string& name, const F& f, const Clip_domain_3& domain, d
   std::size_t our_facets = 0, surface_mesher_facets = 0, mesh_3_facets = 0;
   for (int n = 0; n < repeats; ++n) {
     ours.push_back(seconds([&] {
-      const auto mesh = delaunay_surface(traits, {30, radius, 0}, parameters::clip(domain));
+      const auto mesh = delaunay_surface(traits, {.radius = radius, .clip = domain});
       our_facets = mesh.triangles.size();
       if (n == 0) check(name, mesh, traits, domain, expected);
     }));
@@ -213,7 +213,7 @@ int tiny_spheres_found(int placements) {
     f.small_radius = 0.004;
     f.center = {coordinate(), coordinate(), coordinate()};
     if (std::hypot(f.center[0], f.center[1], f.center[2]) < 1.02) continue;
-    const auto mesh = delaunay_surface(make_analytic_traits<Kernel>(f, f.box()), {30, 0.4, 0});
+    const auto mesh = delaunay_surface(make_analytic_traits<Kernel>(f, f.box()), {.radius = 0.4});
     const auto topology = mesh_topology(mesh.triangles, mesh.points.size());
     found += topology.components == 2 && topology.euler_characteristic == 4;
     ++n;

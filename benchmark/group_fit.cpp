@@ -40,7 +40,7 @@ void accuracy() {
     const std::string name = "fit_" + c.surface.name + "_" + std::to_string(int(c.count / 1000)) + "k_noise_" +
                              std::to_string(c.noise).substr(0, 5);
     const double begin = processor_clock();
-    const Structures fits = fitted_structures(points, samples.triangles);
+    const Structures fits = fitted_structures(points, samples.triangles, {.scale = 0});
     figure(name + "_seconds", processor_clock() - begin, "s", c.count == 40000 ? "<=30" : "none");
     const bool has_border = c.surface.name == "sine";
     const Errors errors = errors_of(samples, fits, c.surface.box, has_border);
@@ -52,7 +52,7 @@ void accuracy() {
     if (has_border)
       figure(name + "_border_over_inside", quantile(errors.at_border, 0.5) / quantile(errors.inside, 0.5), "ratio",
              "<=4");
-    const Errors of_points = errors_of(samples, fitted_structures(points), c.surface.box, false);
+    const Errors of_points = errors_of(samples, fitted_structures(points, {.scale = 0}), c.surface.box, false);
     figure(name + "_points_over_mesh", quantile(of_points.relative, 0.5) / median_error, "ratio", "<=1.2");
     if (&c.surface == &meta && c.noise == 0) exact_meta.push_back(median_error);
   }
@@ -92,7 +92,7 @@ void beside_jet_fitting() {
           std::abs(local_structure(jet).affine.gaussian_curvature - truth.affine.gaussian_curvature) / size_of(truth);
       errors.push_back(std::isfinite(error) ? error : 1e300);
     }
-    const Errors ours = errors_of(samples, fitted_structures(points, samples.triangles), meta.box, false);
+    const Errors ours = errors_of(samples, fitted_structures(points, samples.triangles, {.scale = 0}), meta.box, false);
     figure("fit_jet_fitting_over_ours_noise_" + std::to_string(noise).substr(0, 4),
            quantile(errors, 0.5) / quantile(ours.relative, 0.5), "ratio_of_errors", ">1");
   }
@@ -104,11 +104,11 @@ void cost() {
     const auto points = disturbed(samples, noise);
     const std::string name = noise > 0 ? "noisy" : "exact";
     const auto times = compare_threads(
-        3, [&] { fitted_structures<CGAL::Sequential_tag>(points, samples.triangles); },
-        [&] { fitted_structures<CGAL::Parallel_tag>(points, samples.triangles); });
+        3, [&] { fitted_structures<CGAL::Sequential_tag>(points, samples.triangles, {.scale = 0}); },
+        [&] { fitted_structures<CGAL::Parallel_tag>(points, samples.triangles, {.scale = 0}); });
     figure("fit_40k_" + name + "_one_thread", times.a, "s", noise > 0 ? "<=120" : "<=30");
     figure("fit_40k_" + name + "_two_threads_speedup", times.ratio, "ratio", ">=1.8");
-    const Fitted_function_traits_3<Kernel> blend(points);
+    const Fitted_function_traits_3<Kernel> blend(points, {.scale = 0});
     double sum = 0;
     const double begin = processor_clock();
     for (std::size_t i = 0; i < points.size(); i += 4) sum += blend.value(points[i]);
@@ -130,7 +130,7 @@ void beside_euclidean_peers() {
     Plain_mesh mesh{{}, samples.triangles};
     for (const auto& p : points) mesh.points.push_back({p.x(), p.y(), p.z()});
     Euclidean_curvatures ours;
-    for (const auto& fit : fitted_structures(points, samples.triangles)) {
+    for (const auto& fit : fitted_structures(points, samples.triangles, {.scale = 0})) {
       ours.mean.push_back(fit.structure.euclidean.mean_curvature);
       ours.gaussian.push_back(fit.structure.euclidean.gaussian_curvature);
     }
@@ -194,7 +194,7 @@ void scan(const Scan& scan, const std::string& folder) {
             double(mesh.number_of_edges());
   const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(mesh);
   const double diagonal = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
-  const auto at_scale = parameters::scale(std::min(22 * edge, diagonal / 4));
+  const Fit_options at_scale = {.scale = std::min(22 * edge, diagonal / 4)};
   const std::string name = "fit_" + scan.name;
   figure(name + "_vertices", double(mesh.number_of_vertices()), "vertices", "none");
   const double begin = processor_clock();

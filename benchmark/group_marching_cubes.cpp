@@ -5,6 +5,7 @@
 // Usage: benchmark_marching_cubes [runs]
 #include "marching_cubes_fields.h"
 #include "measure.h"
+#include "support/Without_bounds.h"
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/capabilities.h>
@@ -133,24 +134,23 @@ struct Sphere {
 };
 
 /// The signs at n^3 nodes.
-template <bool SkipsEmptySpace, class Traits>
+template <class Traits>
 void sample_signs(const Traits& traits, std::size_t n) {
-  const internal::Lattice_function<Traits> function(traits, sampling_lattice(traits, {n, n, n}));
-  internal::sample_signs<CGAL::Sequential_tag, SkipsEmptySpace>(function);
+  internal::sample_signs<CGAL::Sequential_tag>(internal::on_lattice(traits, {.resolution = n}));
 }
 
 /// An analytic sphere with n^3 nodes: the whole, and the signs alone, which are what skipping saves.
 template <class Function>
 void compare_skipping(const std::string& name, const Function& function, std::size_t n, int runs, const char* target) {
   const auto traits = make_analytic_traits<Kernel>(function, box);
+  const Without_bounds everywhere(traits);
   const auto signs = compare(
-      processor_clock, runs, [&] { sample_signs<false>(traits, n); }, [&] { sample_signs<true>(traits, n); });
+      processor_clock, runs, [&] { sample_signs(everywhere, n); }, [&] { sample_signs(traits, n); });
   std::printf("%s, signs: %.1f ms, skipping empty space %.1f ms\n", name.c_str(), 1e3 * signs.a, 1e3 * signs.b);
   figure("skipping_empty_space_signs_of_" + name, signs.ratio, "x", ">=10");
-  const auto nodes = parameters::number_of_nodes(n).vertex_position(Vertex_position::LINEAR);
+  const Marching_cubes_options options{.resolution = n, .vertices = Vertex_position::LINEAR};
   const auto c = compare(
-      processor_clock, runs, [&] { marching_cubes(traits, nodes); },
-      [&] { marching_cubes(traits, nodes.skip_empty_space()); });
+      processor_clock, runs, [&] { marching_cubes(everywhere, options); }, [&] { marching_cubes(traits, options); });
   std::printf("%s: %.1f ms, skipping empty space %.1f ms\n", name.c_str(), 1e3 * c.a, 1e3 * c.b);
   figure("skipping_empty_space_" + name, c.ratio, "x", target);
 }
@@ -180,9 +180,8 @@ void compare_shortening(std::size_t spheres, std::size_t n, int runs) {
     text += " - " + std::to_string(0.01 * double(1 + s % 4));
   }
   const Expression_3 f(text + ")");
-  const auto nodes = parameters::number_of_nodes(n).skip_empty_space();
   const auto mesh_of = [&](const auto& function) {
-    marching_cubes(make_analytic_traits<Kernel>(function, box), nodes);
+    marching_cubes(make_analytic_traits<Kernel>(function, box), {.resolution = n});
   };
   const auto c = compare(
       processor_clock, runs, [&] { mesh_of(Whole_expression{f}); }, [&] { mesh_of(f); });
@@ -207,7 +206,7 @@ void measure_memory() {
     measure("gyroid_256_float", field.n, output, [&] { ours<CGAL::Sequential_tag>(field); });
   }
   const auto traits = make_analytic_traits<Kernel>(Sphere(), box);
-  const auto run = [&] { return marching_cubes(traits, parameters::number_of_nodes(512).skip_empty_space()); };
+  const auto run = [&] { return marching_cubes(traits, {.resolution = 512}); };
   std::size_t output = 0;
   {
     const auto surface = run();

@@ -100,7 +100,7 @@ std::vector<Point_3> part_of(const std::vector<Point_3>& points) {
 std::vector<Point_3> vertices(const Sampled& sampled, const Variant& variant, double isovalue = 0) {
   const Level_set_traits_3 level_set(sampled, isovalue);
   const auto position = variant.scheme == Spline_scheme::PAPER ? Vertex_position::LINEAR : Vertex_position::PROJECTED;
-  return part_of(marching_cubes<Parallel>(level_set, parameters::vertex_position(position)).points);
+  return part_of(marching_cubes<Parallel>(level_set, {.vertices = position}).points);
 }
 
 double scale_of(double gaussian, double mean) { return std::abs(gaussian) + mean * mean; }
@@ -197,7 +197,7 @@ void accuracy(const std::string& plot_path) {
       h.push_back(std::sqrt(lattice.steps()[0].squared_length()));
       std::printf("  %-16s N = %3zu", s.name.c_str(), n);
       for (std::size_t v = 0; v < variants.size(); ++v) {
-        const Sampled sampled(volume, {.degree = variants[v].degree, .scheme = variants[v].scheme});
+        const Sampled sampled(volume, {.spline_scheme = variants[v].scheme, .spline_degree = variants[v].degree});
         const Errors e = errors_at(vertices(sampled, variants[v]), sampled, s.function);
         medians[v].push_back(e.median_gaussian);
         std::printf(" | %.1e (%.0e)", e.median_gaussian, e.p95_gaussian);
@@ -237,7 +237,7 @@ void figure_10() {
     for (const std::size_t n : {40, 64, 128, 256}) {
       const auto row = [&](const auto& function) {
         const Sampled sampled(sample_on_lattice<Parallel>(function, Lattice_3<Kernel>({n, n, n}, function.bbox())),
-                              {.degree = v->degree, .scheme = v->scheme});
+                              {.spline_scheme = v->scheme, .spline_degree = v->degree});
         const Errors e = errors_at(vertices(sampled, *v), sampled, function);
         std::printf(" | %.2g, %.2g", 2 * mean(e.gaussian), std::sqrt(2) * mean(e.mean)); // K = H^2: the scale is 2 K
         return 2 * mean(e.gaussian);
@@ -264,12 +264,12 @@ void noise() {
     std::normal_distribution<double> normal;
     for (double& x : volume.values) x = deviation == 0 ? double(float(x)) : x + deviation * normal(random);
     const Sample_noise measured = estimate_noise(volume, std::optional(0.));
-    const double smoothing = choose_smoothing(volume, measured, usual.degree, usual.scheme, std::optional(0.));
+    const double smoothing = choose_smoothing(volume, measured, {.level = 0});
     const Sampled sampled(smooth_volume(volume, smoothing));
     const auto points = vertices(sampled, usual);
     const Errors e = errors_at(points, sampled, s.function);
     const Errors paper_errors = [&] {
-      const Sampled convolved(volume, {.degree = paper.degree, .scheme = paper.scheme});
+      const Sampled convolved(volume, {.spline_scheme = paper.scheme, .spline_degree = paper.degree});
       return errors_at(vertices(convolved, paper), convolved, s.function);
     }();
     std::printf("  %-10s measured %.2g, scale %g: K %.1e (%.0e), H %.1e; paper K %.1e\n", name, measured.deviation,
@@ -309,7 +309,7 @@ void cost() {
     random_order.push_back({x, y, z});
   }
   const auto ours = [&](int degree) -> Spline_evaluation {
-    return [spline = std::make_shared<Spline_function_3<Kernel>>(volume, Spline_parameters{.degree = degree})](
+    return [spline = std::make_shared<Spline_function_3<Kernel>>(volume, Volume_options{.spline_degree = degree})](
                const Lattice_points& points) {
       for (const auto& [x, y, z] : points) keep(spline->taylor(Point_3(x, y, z)));
       return 0.;
@@ -340,7 +340,7 @@ void cost() {
 /// The part of the vertices whose curvatures are estimated to err by at most a tenth of |K| + H^2.
 double trusted(const Volume& volume, double isovalue, const char* name) {
   const Sample_noise measured = estimate_noise(volume, std::optional(isovalue));
-  const double smoothing = choose_smoothing(volume, measured, usual.degree, usual.scheme, std::optional(isovalue));
+  const double smoothing = choose_smoothing(volume, measured, {.level = isovalue});
   double result = 0;
   for (const double scale : {0., smoothing, 4.}) {
     const Sampled sampled(smooth_volume(volume, scale));

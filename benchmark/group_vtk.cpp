@@ -80,14 +80,14 @@ int main() {
       const Sampled_function_traits_3<Kernel> function(view);
       std::vector<Isosurface_slab_3<Kernel>> slabs;
       std::vector<Vertex_attributes> attributes;
-      const Isosurface_totals totals = marching_cubes_in_slabs<Tag>(
-          function,
+      const Isosurface_totals totals = marching_cubes_of_block<Tag>(
+          function, view.cells(),
           [&](const Isosurface_slab_3<Kernel>& slab) {
             slabs.push_back(slab);
             attributes.push_back(compute_attributes<Tag>(function, std::span<const Kernel::Point_3>(slab.points),
                                                          selection, slab.vertex_status));
           },
-          parameters::cell_block(view.cells()).planes_per_slab(nodes / 4));
+          {.planes_per_slab = std::size_t(nodes / 4)});
       of_library = totals.vertices;
     });
     print("slabs with ids", to_slabs);

@@ -88,7 +88,7 @@ def main():
         surface = vtkEquiaffineSurface()
         surface.SetInputConnection(source.GetOutputPort())
         surface.SetAttributes(attributes)
-        surface.SetProjectVertices(project)
+        surface.SetVertices(surface.PROJECTED if project else surface.LINEAR)
         surface.EstimateErrorsOff()  # the peers have none
         return surface
 

@@ -27,7 +27,7 @@ void print_range(Mesh& mesh, const std::string& name) {
 
 int main() {
   const auto traits = equiaffine::make_analytic_traits<Kernel>(Sphere{2}, CGAL::Bbox_3(-3, -3, -3, 3, 3, 3));
-  const auto surface = equiaffine::marching_cubes(traits, equiaffine::parameters::number_of_nodes(32));
+  const auto surface = equiaffine::marching_cubes(traits, {.resolution = 32});
   Mesh mesh = equiaffine::to_surface_mesh(surface);
   equiaffine::annotate(mesh, traits);
 

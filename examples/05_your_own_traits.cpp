@@ -52,7 +52,7 @@ static_assert(equiaffine::ImplicitFunctionTraits_3<Quadric_traits_3>);
 
 int main() {
   const Quadric_traits_3 traits({-6, 1, 0, 0, 1, 1, 0, 2, 0, 3}, CGAL::Bbox_3(-4, -3, -2, 3, 3, 2));
-  const auto surface = equiaffine::marching_cubes(traits, equiaffine::parameters::number_of_nodes(6));
+  const auto surface = equiaffine::marching_cubes(traits, {.resolution = 6});
   for (std::size_t v = 0; v < surface.points.size(); v += 10) {
     const auto s = equiaffine::local_structure_at(traits, surface.points[v]);
     std::printf("x = %7.4f: K = %.4g, H = %.4g\n", surface.points[v].x(), s.affine.gaussian_curvature,

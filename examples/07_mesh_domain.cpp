@@ -24,7 +24,7 @@ int main() {
   //! [domain]
   const Sphere sphere;
   const double facet_size = 0.2;
-  const Domain domain({sphere, sphere.box()}, equiaffine::Clip_domain_3(sphere.box()), facet_size);
+  const Domain domain({sphere, sphere.box()}, {.radius = facet_size});
   const CGAL::Mesh_criteria_3<Triangulation> criteria(CGAL::Mesh_facet_criteria_3<Triangulation>(30, facet_size, 0.005),
                                                       CGAL::Mesh_cell_criteria_3<Triangulation>(3, 0.3));
   const auto mesh = CGAL::make_mesh_3<Complex>(domain, criteria);

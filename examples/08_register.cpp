@@ -25,8 +25,8 @@ int main() {
   const Map map(2, 1, 0, 5, 0, 1, -0.5, 0, 0.3, 0, 0.6, -3);
   const equiaffine::Transformed_function_traits_3 image(whole, map);
 
-  const auto points = equiaffine::marching_cubes(piece, parameters::number_of_nodes(20)).points;
-  const auto image_points = equiaffine::marching_cubes(image, parameters::number_of_nodes(31)).points;
+  const auto points = equiaffine::marching_cubes(piece, {.resolution = 20}).points;
+  const auto image_points = equiaffine::marching_cubes(image, {.resolution = 31}).points;
   const auto result = equiaffine::register_surfaces(piece, points, image, image_points);
   //! [register]
   if (!result.found()) {
@@ -45,7 +45,7 @@ int main() {
   std::printf("of the piece %.0f %% lie on the whole, of the whole %.0f %% on the piece\n", 100 * of_piece,
               100 * of_whole);
 
-  const auto rigid = equiaffine::register_surfaces(piece, points, image, image_points,
-                                                   parameters::map_kind(equiaffine::Map_kind::RIGID));
+  const auto rigid =
+      equiaffine::register_surfaces(piece, points, image, image_points, {.kind = equiaffine::Map_kind::RIGID});
   std::printf("a rigid map: %s\n", rigid.found() ? "found" : "none");
 }

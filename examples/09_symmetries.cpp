@@ -21,14 +21,14 @@ int main() {
     //! [symmetries]
     const auto traits =
         equiaffine::make_analytic_traits<Kernel>(equiaffine::Expression_3(equation), CGAL::Bbox_3(-3, -3, -3, 3, 3, 3));
-    const auto points = equiaffine::marching_cubes(traits, parameters::number_of_nodes(50)).points;
+    const auto points = equiaffine::marching_cubes(traits, {.resolution = 50}).points;
     const auto affine = equiaffine::affine_symmetries(traits, points);
     std::printf("%s\n", equation);
     if (!affine.order()) {
       std::printf("  infinitely many symmetries, dimension %zu\n", affine.continuous.dimension());
       continue;
     }
-    const auto rigid = equiaffine::affine_symmetries(traits, points, parameters::map_kind(equiaffine::Map_kind::RIGID));
+    const auto rigid = equiaffine::affine_symmetries(traits, points, {.kind = equiaffine::Map_kind::RIGID});
     std::printf("  %zu symmetries, %zu of them rigid\n", *affine.order(), *rigid.order());
     //! [symmetries]
   }

@@ -21,11 +21,11 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 int main() {
   const equiaffine::Expression_3 f("x^2 + y^2/2 + z^2/3 + x*y*z/4 = 1");
   const auto surface = equiaffine::make_analytic_traits<Kernel>(f, CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
-  const auto sampled = equiaffine::marching_cubes(surface, equiaffine::parameters::number_of_nodes(40));
+  const auto sampled = equiaffine::marching_cubes(surface, {.resolution = 40});
   Mesh mesh = equiaffine::to_surface_mesh(sampled); // or CGAL::IO::read_polygon_mesh("scan.ply", mesh)
 
   //! [fit]
-  equiaffine::annotate_by_fit(mesh);
+  equiaffine::annotate_by_fit(mesh, {.scale = 0});
 
   const auto map = [&](const std::string& name) {
     return mesh.add_property_map<Mesh::Vertex_index, double>("v:" + name).first; // it is there

@@ -29,13 +29,14 @@ int main() {
 
   //! [maps]
   Polyhedron mesh;
-  equiaffine::marching_cubes(ellipsoid, mesh, parameters::number_of_nodes(24));
+  equiaffine::marching_cubes(ellipsoid, mesh, {.resolution = 24});
 
   std::map<Vertex, double> exact, fitted, error;
   equiaffine::annotate(mesh, ellipsoid, CGAL::parameters::geom_traits(Kernel()),
                        parameters::vertex_affine_mean_curvature_map(boost::make_assoc_property_map(exact)));
-  equiaffine::annotate_by_fit(mesh, parameters::vertex_affine_mean_curvature_map(boost::make_assoc_property_map(fitted))
-                                        .vertex_affine_mean_curvature_error_map(boost::make_assoc_property_map(error)));
+  equiaffine::annotate_by_fit(mesh, {.scale = 0},
+                              parameters::vertex_affine_mean_curvature_map(boost::make_assoc_property_map(fitted))
+                                  .vertex_affine_mean_curvature_error_map(boost::make_assoc_property_map(error)));
   //! [maps]
 
   //! [file]

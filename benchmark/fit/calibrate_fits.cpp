@@ -61,14 +61,15 @@ void compare_with_surface(std::size_t surface, std::size_t nodes, double noise, 
   const auto [formula, b] = surfaces[surface];
   const double edge = 2 * b / double(nodes - 1);
   const auto traits = make_analytic_traits<Kernel>(Expression_3(formula), CGAL::Bbox_3(-b, -b, -b, b, b, b));
-  const auto mesh = marching_cubes(traits, parameters::number_of_nodes(nodes));
+  const auto mesh = marching_cubes(traits, {.resolution = nodes});
   std::normal_distribution<double> deviate(0, noise > 0 ? noise * edge : 1);
   const auto move = [&](double x) { return noise > 0 ? x + deviate(random) : x; };
   internal::Fit_data_3 given{internal::Fit_data_3::Kind::MESH};
   for (const auto& p : mesh.points) given.points.emplace_back(move(p.x()), move(p.y()), move(p.z()));
   for (const auto& [i, j, k] : mesh.triangles)
     given.polygons.push_back({std::uint32_t(i), std::uint32_t(j), std::uint32_t(k)});
-  const internal::Fitted_data_3 fit(true, internal::fit_input(true, std::move(given)).data, internal::Fit_request{});
+  const Fit_options own = {.scale = 0};
+  const internal::Fitted_data_3 fit(true, internal::fit_input(true, std::move(given), own).data, own);
   const internal::Data_points_3& data = fit.data();
   for (const auto i : random_subset<internal::Data_points_3::Index>(mesh.points.size(), most_points, 5)) {
     const auto& choice = fit.choices().at(data.points[i]);
@@ -106,14 +107,13 @@ void compare_halves(std::size_t mesh, const std::string& file, std::mt19937& ran
         given[half].points.push_back(vertices[order[k]]);
         given[half].normals.push_back(normals[order[k]].normalized());
       }
-  internal::Fit_request request;
-  request.scale = std::nullopt;
-  const internal::Fit_input_3 first = internal::fit_input(true, std::move(given[0]));
-  const internal::Fitted_data_3 first_fit(true, first.data, request);
-  request.scale = first_fit.scale();
-  if (!request.scale) return;
-  const internal::Fit_input_3 second = internal::fit_input(true, std::move(given[1]));
-  const internal::Fitted_data_3 second_fit(true, second.data, request);
+  Fit_options options;
+  const internal::Fit_input_3 first = internal::fit_input(true, std::move(given[0]), options);
+  const internal::Fitted_data_3 first_fit(true, first.data, options);
+  options.scale = first_fit.scale();
+  if (!options.scale) return;
+  const internal::Fit_input_3 second = internal::fit_input(true, std::move(given[1]), options);
+  const internal::Fitted_data_3 second_fit(true, second.data, options);
   const auto fit_at = [](const internal::Fitted_data_3& fit, internal::Data_points_3::Index i) {
     return internal::curvature_fit(fit.data(), i, *fit.choices().at(fit.data().points[i]), fit.choices(),
                                    internal::Fit_use::NUMBERS);

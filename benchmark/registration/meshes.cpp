@@ -34,7 +34,7 @@ struct Mesh {
     return sum / (3 * double(triangles.size()));
   }
 
-  Fit fit() const { return Fit(points, triangles); }
+  Fit fit() const { return Fit(points, triangles, {.scale = 0}); }
 };
 
 /// Irregular triangles with about so many vertices, which lie on the surface: the radius of the mesher's triangles is
@@ -44,7 +44,7 @@ Mesh mesh_of(const Formula& function, double vertices) {
   double radius = 0.02 * box.x_span();
   Mesh mesh;
   for (int n = 0; n < 5; ++n) {
-    auto surface = delaunay_surface(function, {30, radius, 1});
+    auto surface = delaunay_surface(function, {.radius = radius, .distance = 1});
     mesh = {std::move(surface.points), std::move(surface.triangles)};
     const double ratio = double(mesh.points.size()) / vertices;
     if (std::abs(ratio - 1) < 0.06) break;
@@ -129,7 +129,7 @@ void register_bunny(const std::string& folder) {
             double(bunny.number_of_edges());
   const Points points(bunny.points().begin(), bunny.points().end());
   const Map map(1.4, -0.2, 0, 0, 0.1, 0.7, 0, 0, 0, 0, 1, 0);
-  const auto at_scale = parameters::scale(0.18);
+  const Fit_options at_scale = {.scale = 0.18};
   const Fit fit(bunny, at_scale);
   Row row("bunny_half_of_the_vertices", 1e-2);
   for (unsigned seed = 1; seed <= 3; ++seed) {

@@ -45,30 +45,30 @@ public:
   /// Registers two surfaces, and compares the map with the right one.
   template <class Source, class Target>
   void run(const Source& source, const Points& points, const Target& target, const Points& target_points,
-           const Map& right, const internal::Registration_request& request = {}) {
-    run(source, source, points, target, target, target_points, right, request);
+           const Map& right, const Registration_options& options = {}) {
+    run(source, source, points, target, target, target_points, right, options);
   }
 
   /// The same, with other functions to refine on.
   template <ImplicitFunctionTraits_3 Source, class Refined_source, class Target, class Refined_target>
   void run(const Source& source, const Refined_source& refined_source, const Points& points, const Target& target,
            const Refined_target& refined_target, const Points& target_points, const Map& right,
-           const internal::Registration_request& request = {}) {
+           const Registration_options& options = {}) {
     const auto framed = [](const auto& traits) { return Framed_function_3(Any_function_3::make(traits)); };
     run(framed(source), framed(refined_source), points, framed(target), framed(refined_target), target_points, right,
-        request);
+        options);
   }
 
   void run(const Framed_function_3& source, const Framed_function_3& refined_source, const Points& points,
            const Framed_function_3& target, const Framed_function_3& refined_target, const Points& target_points,
-           const Map& right, const internal::Registration_request& request = {}) {
+           const Map& right, const Registration_options& options = {}) {
     const auto framed =
-        internal::framed_surface(false, source, refined_source, internal::vectors_of(points), request.kind);
+        internal::framed_surface(false, source, refined_source, internal::vectors_of(points), options.kind);
     const auto framed_target =
-        internal::framed_surface(false, target, refined_target, internal::vectors_of(target_points), request.kind);
+        internal::framed_surface(false, target, refined_target, internal::vectors_of(target_points), options.kind);
     const double begin = processor_clock();
-    const auto slippage = internal::slippage_of_source(framed, request.kind);
-    const auto result = internal::registration_of_framed(false, framed, framed_target, request, slippage).result;
+    const auto slippage = internal::slippage_of_source(framed, options.kind);
+    const auto result = internal::registration_of_framed(false, framed, framed_target, options, slippage).result;
     seconds_.push_back(processor_clock() - begin);
     found_ += result.found();
     const double error = result.found() ? error_of(result.best().map, right) : 1;

@@ -54,12 +54,10 @@ std::array<std::vector<Case>, 2> cases(const std::vector<Source>& sources, int r
 }
 
 void run(const std::string& name, const std::vector<Case>& cases, const Thresholds& thresholds) {
-  internal::Registration_request request;
-  request.thresholds = thresholds;
   double right = 0, hypotheses = 0;
   for (const Case& c : cases) {
     const auto result =
-        internal::registration_of_framed(true, c.source.surface(), c.target.surface(), request, {}).result;
+        internal::registration_of_framed(true, c.source.surface(), c.target.surface(), {}, {}, thresholds).result;
     right += result.found() && error_of(result.best().map, c.right) < 1e-6;
     hypotheses += double(result.hypotheses);
   }

@@ -4,6 +4,7 @@
 #include "module.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/io/read_points.h>
 
@@ -46,11 +47,11 @@ EXPORTED int eq_annotate(const char* name, const char* bytes, int size, double s
     if (file.mesh.points.size() > most)
       throw equiaffine::Input_error("'" + std::string(name) + "' has " + std::to_string(file.mesh.points.size()) +
                                     " points: here up to 50000 can be fitted, and any number by the program");
-    const auto parameters = equiaffine::parameters::scale(scale < 0 ? std::nullopt : std::optional(scale));
-    surface.attributes = columns_of(
-        file.mesh.triangles.empty() ? equiaffine::fitted_structures(file.mesh.points, parameters)
-                                    : equiaffine::fitted_structures(file.mesh.points, file.mesh.triangles, parameters),
-        attributes);
+    const equiaffine::Fit_options options = {.scale = scale < 0 ? std::nullopt : std::optional(scale)};
+    surface.attributes = columns_of(file.mesh.triangles.empty()
+                                        ? equiaffine::fitted_structures(file.mesh.points, options)
+                                        : equiaffine::fitted_structures(file.mesh.points, file.mesh.triangles, options),
+                                    attributes);
     static_cast<equiaffine::Indexed_triangle_mesh_3<Kernel>&>(surface.mesh) = std::move(file.mesh);
   });
 }

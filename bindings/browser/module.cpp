@@ -40,7 +40,7 @@ EXPORTED int eq_mesh(const char* text, const char* names, const double* values, 
         equiaffine::make_analytic_traits<Kernel>(expression(text, names, values, count),
                                                  CGAL::Bbox_3(box[0], box[2], box[4], box[1], box[3], box[5])),
         level);
-    sample(level_set, attributes, equiaffine::parameters::number_of_nodes(std::size_t(nodes)).skip_empty_space());
+    sample(level_set, attributes, {.resolution = nodes});
   });
 }
 

@@ -8,9 +8,9 @@
 #include <equiaffine/marching_cubes/marching_cubes.h>
 
 /// The zero set of a function becomes the surface of the module, with the attributes in a list.
-template <class Traits, class... Parameters>
-void sample(const Traits& traits, const char* attributes, const Parameters&... parameters) {
-  surface.mesh = equiaffine::marching_cubes(traits, parameters...);
+template <class Traits>
+void sample(const Traits& traits, const char* attributes, const equiaffine::Marching_cubes_options& options = {}) {
+  surface.mesh = equiaffine::marching_cubes(traits, options);
   surface.attributes = equiaffine::compute_attributes(
       traits, surface.mesh.points, equiaffine::select_attributes(attributes), surface.mesh.vertex_status);
 }

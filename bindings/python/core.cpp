@@ -68,7 +68,8 @@ py::object mesh(const Words& words, const Given& given, const py::object& progre
     if (std::holds_alternative<Volume_array>(given))
       options.source.estimates_errors = has_affine_curvatures(options.attributes, options.estimates);
     const auto* const delaunay = std::get_if<Delaunay_options>(&options.method);
-    const Source source = make_given_source(options.source, given, progress, delaunay ? delaunay->radius : 0);
+    const Source source =
+        make_given_source(options.source, given, progress, delaunay ? delaunay->radius.value_or(0) : 0);
     auto surface = std::make_shared<Annotated_surface>(surface_of(source, options, progress));
     add_errors(surface->estimates, surface->attributes);
     if (const auto& fit = surface->estimates.fit) surface->attributes.comments = comments_of(*fit);

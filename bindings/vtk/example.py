@@ -9,7 +9,7 @@ source = vtk.vtkRTAnalyticSource()
 source.SetWholeExtent(-20, 20, -20, 20, -20, 20)
 surface = vtkEquiaffineSurface()
 surface.SetInputConnection(source.GetOutputPort())
-surface.SetIsovalue(157)
+surface.SetLevel(157)
 surface.Update()
 data = surface.GetOutput().GetPointData()
 for name in ("mean_curvature", "affine_mean_curvature"):

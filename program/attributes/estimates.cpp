@@ -76,7 +76,7 @@ Estimates estimates_of(std::span<const Fitted_structure_3<double>> structures) {
                                                  : attribute.kind == Estimate_kind::NOISE ? s.noise
                                                                                           : s.detail));
   }
-  estimates.fit = statistics_of(structures);
+  estimates.fit = statistics_of_fit(structures);
   return estimates;
 }
 

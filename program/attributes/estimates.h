@@ -2,10 +2,10 @@
 #ifndef EQUIAFFINE_PROGRAM_ATTRIBUTES_ESTIMATES_H
 #define EQUIAFFINE_PROGRAM_ATTRIBUTES_ESTIMATES_H
 
-#include "source/Fit_statistics.h"
 #include "system/kernel.h"
 #include "system/progress.h"
 #include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/attributes/Fit_statistics.h>
 #include <equiaffine/attributes/internal/error_table.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>

@@ -164,8 +164,8 @@ void read_spline(Option_reader& reader) {
                   reader.draft().source.kind == Source_kind::FIT ? "leave it out"
                                                                  : "add --derivatives spline or leave it out");
   reader.read({"--spline-scheme", "--spline-degree"});
-  const Spline_options& spline = reader.draft().source.spline;
-  if (spline.scheme == Spline_scheme::PAPER && spline.degree != 5)
+  const Volume_options& spline = reader.draft().source.spline;
+  if (spline.spline_scheme == Spline_scheme::PAPER && spline.spline_degree != 5)
     fail_option("--spline-degree", "the paper's spline has degree 5", "leave it out or use another --spline-scheme");
   reader.read({"--smoothing"});
 }

@@ -35,11 +35,9 @@ struct Draft {
   Estimator estimator = Estimator::COMPACT;
   Display_options display;
   bool samples_are_float = false;
-  Map_options maps;
-  std::optional<std::size_t> number_of_maps;
-  double least_overlap = 0.05;
-  std::optional<double> tolerance;
-  bool is_complete = false;
+  Registration_options registration;
+  bool lists_maps = false;
+  bool searches_all_rotations = false;
   std::string mesh, points; ///< the files that `view` and `annotate`, and that `evaluate` reads
   std::optional<std::string> output, moved, curves, stats;
 };

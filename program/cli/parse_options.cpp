@@ -98,7 +98,7 @@ void check_page(const Option_reader& reader) {
 
 /// Throws if the paper's scheme is used in a way that needs a function, since its expansions are not those of one.
 void check_scheme(const Draft& draft) {
-  if (draft.source.spline.scheme != Spline_scheme::PAPER) return;
+  if (draft.source.spline.spline_scheme != Spline_scheme::PAPER) return;
   if (draft.method != Mesh_method::MARCHING_CUBES || draft.marching_cubes.vertices != Vertex_position::LINEAR ||
       draft.curves)
     fail_option("--spline-scheme", "paper is for Marching Cubes with linear vertices and without parabolic curves",
@@ -122,7 +122,7 @@ Mesh_options read_mesh_options(Option_reader& reader) {
 
   Mesh_options options;
   options.source = std::move(draft.source);
-  options.source.spline.isovalue = draft.isovalue;
+  options.source.spline.level = draft.isovalue;
   options.isovalue = draft.isovalue;
   options.orientation = draft.orientation;
   if (draft.method == Mesh_method::DELAUNAY) options.method = draft.delaunay;

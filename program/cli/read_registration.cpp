@@ -45,10 +45,10 @@ void move_common_options(Command_line& from, Command_line& to) {
 Surface_options read_surface(Option_reader& reader) {
   read_source(reader);
   reader.read({"--isovalue"});
-  if (reader.draft().source.spline.scheme == Spline_scheme::PAPER)
+  if (reader.draft().source.spline.spline_scheme == Spline_scheme::PAPER)
     fail_option("--spline-scheme", "paper has no expansions that belong to one function", "use quasi-interpolation");
   Surface_options surface{reader.draft().source, reader.draft().isovalue};
-  surface.source.spline.isovalue = surface.isovalue;
+  surface.source.spline.level = surface.isovalue;
   surface.source.is_registered = true;
   return surface;
 }
@@ -75,10 +75,8 @@ Register_options make_register_options(Option_reader& reader, Option_reader& tar
   for (const std::string& file : input_files(target_reader)) inputs.push_back(file);
   const Draft& draft = reader.draft();
   check_outputs(inputs, {draft.output, draft.moved, draft.display.html, draft.display.png});
-  options.maps = draft.maps;
-  options.number_of_maps = draft.number_of_maps;
-  options.least_overlap = draft.least_overlap;
-  options.tolerance = draft.tolerance;
+  options.registration = draft.registration;
+  options.lists_maps = draft.lists_maps;
   options.output = *draft.output;
   options.moved = draft.moved;
   options.display = draft.display;
@@ -109,9 +107,11 @@ Symmetries_options read_symmetries_options(Option_reader& reader) {
   read_outputs(reader, {"distance", "surface", "plain"});
   const Draft& draft = reader.draft();
   check_outputs(input_files(reader), {draft.output, draft.display.html, draft.display.png});
-  options.maps = draft.maps;
-  options.tolerance = draft.tolerance;
-  options.is_complete = draft.is_complete;
+  const Registration_options& maps = draft.registration;
+  options.symmetries = {.kind = maps.kind,
+                        .reflections = maps.reflections,
+                        .tolerance = maps.tolerance,
+                        .complete = draft.searches_all_rotations};
   options.output = *draft.output;
   options.display = draft.display;
   choose_up(options.surface.source.kind, options.display);

@@ -13,16 +13,17 @@ void read_derivatives(const Option_words& option, Draft& draft) {
 }
 
 void read_spline_degree(const Option_words& option, Draft& draft) {
-  draft.source.spline.degree = parse_choice<int>(option, {{"5", 5}, {"7", 7}, {"9", 9}});
+  draft.source.spline.spline_degree = parse_choice<int>(option, {{"5", 5}, {"7", 7}, {"9", 9}});
 }
 
 void read_spline_scheme(const Option_words& option, Draft& draft) {
-  Spline_options& spline = draft.source.spline;
-  spline.scheme = parse_choice<Spline_scheme>(option, {{"quasi-interpolation", Spline_scheme::QUASI_INTERPOLATION},
-                                                       {"interpolation", Spline_scheme::INTERPOLATION},
-                                                       {"convolution", Spline_scheme::CONVOLUTION},
-                                                       {"paper", Spline_scheme::PAPER}});
-  if (spline.scheme == Spline_scheme::PAPER) spline.degree = 5;
+  Volume_options& spline = draft.source.spline;
+  spline.spline_scheme =
+      parse_choice<Spline_scheme>(option, {{"quasi-interpolation", Spline_scheme::QUASI_INTERPOLATION},
+                                           {"interpolation", Spline_scheme::INTERPOLATION},
+                                           {"convolution", Spline_scheme::CONVOLUTION},
+                                           {"paper", Spline_scheme::PAPER}});
+  if (spline.spline_scheme == Spline_scheme::PAPER) spline.spline_degree = 5;
 }
 
 void read_smoothing(const Option_words& option, Draft& draft) {
@@ -67,7 +68,7 @@ void read_sizing(const Option_words& option, Draft& draft) {
 }
 
 void read_clip(const Option_words& option, Draft& draft) {
-  draft.delaunay.clips_to_ball = parse_choice<bool>(option, {{"box", false}, {"ball", true}});
+  draft.delaunay.clip = parse_choice<Clip_shape>(option, {{"box", Clip_shape::BOX}, {"ball", Clip_shape::BALL}});
 }
 
 const std::string threads_help = "threads to use, all by default; the result is always the same";
@@ -161,26 +162,27 @@ std::span<const Option_row> surface_options() { return rows_of_surfaces; }
 namespace {
 
 void read_kind(const Option_words& option, Draft& draft) {
-  draft.maps.kind = parse_choice<Map_kind>(option, {{"affine", Map_kind::AFFINE},
-                                                    {"equiaffine", Map_kind::EQUIAFFINE},
-                                                    {"similarity", Map_kind::SIMILARITY},
-                                                    {"rigid", Map_kind::RIGID}});
+  draft.registration.kind = parse_choice<Map_kind>(option, {{"affine", Map_kind::AFFINE},
+                                                            {"equiaffine", Map_kind::EQUIAFFINE},
+                                                            {"similarity", Map_kind::SIMILARITY},
+                                                            {"rigid", Map_kind::RIGID}});
 }
 
 void read_no_reflection(const Option_words& option, Draft& draft) {
-  draft.maps.allows_reflections = parse_choice<bool>(option, {{"true", false}, {"false", true}});
+  draft.registration.reflections = parse_choice<bool>(option, {{"true", false}, {"false", true}});
 }
 
-void read_least_overlap(const Option_words& option, Draft& draft) {
-  draft.least_overlap = parse_number(option);
-  if (!(draft.least_overlap >= 0 && draft.least_overlap <= 1))
+void read_min_overlap(const Option_words& option, Draft& draft) {
+  const double part = draft.registration.min_overlap = parse_number(option);
+  if (!(part >= 0 && part <= 1))
     fail_option(option.name, "'" + option.word() + "' is not a part of a surface",
                 "give a number from 0 to 1, such as 0.05");
 }
 
 void read_tolerance(const Option_words& option, Draft& draft) {
-  draft.tolerance = parse_number(option);
-  if (!(*draft.tolerance > 0 && *draft.tolerance < 0.1))
+  const double part = parse_number(option);
+  draft.registration.tolerance = part;
+  if (!(part > 0 && part < 0.1))
     fail_option(option.name, "'" + option.word() + "' is not between 0 and 0.1",
                 "give a part of the size of the surface, such as 1e-3, or leave it out");
 }
@@ -193,10 +195,11 @@ const std::vector<Option_row> rows_of_maps = {
     {"--no-reflection", registering, MAPS, 0, "", "no map that turns left into right", read_no_reflection},
     {"--all", REGISTER, MAPS, 1, "N", "all maps with evidence, up to N, as those of a symmetric target or of copies",
      [](const Option_words& option, Draft& draft) {
-       draft.number_of_maps = parse_count(option.name, option.word(), 1);
+       draft.registration.number_of_maps = parse_count(option.name, option.word(), 1);
+       draft.lists_maps = true;
      }},
     {"--min-overlap", REGISTER, MAPS, 1, "PART",
-     "the part of one of the surfaces, at least, that is to lie on the other, by default 0.05", read_least_overlap},
+     "the part of one of the surfaces, at least, that is to lie on the other, by default 0.05", read_min_overlap},
     {"--tolerance", registering, MAPS, 1, "PART",
      "the largest rms distance to which a map may move points from the other surface, a part of\n"
      "the size; by default what noise and facets explain. A symmetry of a formula moves them by\n"
@@ -206,7 +209,7 @@ const std::vector<Option_row> rows_of_maps = {
      "search all rotations and reflections, as for a mesh, where a formula's frames of\n"
      "curvature decide by themselves",
      [](const Option_words& option, Draft& draft) {
-       draft.is_complete = parse_choice<bool>(option, {{"true", true}, {"false", false}});
+       draft.searches_all_rotations = parse_choice<bool>(option, {{"true", true}, {"false", false}});
      }},
 };
 

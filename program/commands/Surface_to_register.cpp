@@ -2,12 +2,13 @@
 #include "commands/Surface_to_register.h"
 
 #include "commands/extract_surface.h"
-#include "output/maps.h"
 #include "output/maps_display.h"
+#include "source/read_mesh.h"
 #include "source/source.h"
 #include "source/source_function.h"
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/mesh/internal/Triangle_tree_3.h>
+#include <equiaffine/registration/internal/Surface_to_register.h>
 
 #include <CGAL/Bbox_3.h>
 #include <CGAL/tags.h>
@@ -34,6 +35,8 @@ using Point = Kernel::Point_3;
 using Vector = Kernel::Vector_3;
 using Mesh = Indexed_triangle_mesh_3<Kernel>;
 
+constexpr bool in_threads = runs_in_threads<CGAL::Parallel_if_available_tag>();
+
 Mesh extract(const Source_function& function, const Surface_options& options, Progress& progress) {
   progress.begin("extracting the surface");
   auto surface = extract_surface(function, options.isovalue, options.source, Vertex_position::PROJECTED);
@@ -59,48 +62,59 @@ bool is_mesh_itself(const Surface_options& options) {
   return has_mesh && options.isovalue == 0 && !source.box;
 }
 
-Surface_to_register make_surface_to_register(const Surface_options& options, bool is_shown, Progress& progress) {
+internal::Surface_origin origin_of_source(const Source_options& source) {
+  using enum internal::Surface_origin;
+  switch (source.kind) {
+  case Source_kind::FIT: return FIT;
+  case Source_kind::DISTANCE: return DISTANCE;
+  case Source_kind::VOLUME: return source.spline.smoothing == 0. ? RAW_VOLUME : SPLINE;
+  default: return source.derivatives == Derivatives::SPLINE ? SPLINE : FUNCTION;
+  }
+}
+
+void read_data_once(Source_options& source, Progress& progress) {
+  if (source.kind != Source_kind::FIT || source.data) return;
+  progress.begin("reading the vertices");
+  source.data = [data = std::make_shared<const Annotated_mesh_3<Kernel>>(read_vertices(source))] { return *data; };
+}
+
+internal::Surface_to_register make_surface_to_register(const Surface_options& options, bool is_shown,
+                                                       Progress& progress) {
   Source source = make_source(options.source, progress);
-  Surface_to_register surface{.function = any_level_set(source.function, options.isovalue),
-                              .mesh = std::move(source.data),
-                              .scale = source.fit ? source.fit->scale() : std::nullopt};
+  internal::Surface_to_register surface{.function = any_level_set(source.function, options.isovalue),
+                                        .mesh = std::move(source.data),
+                                        .origin = origin_of_source(options.source),
+                                        .given_scale = options.source.fit.scale,
+                                        .scale = source.fit ? source.fit->scale() : std::nullopt};
   if (options.source.transformation)
-    for (Kernel::Point_3& p : surface.mesh.points) p = (*options.source.transformation)(p);
+    for (Point& p : surface.mesh.points) p = (*options.source.transformation)(p);
   if (source.unsmoothed) surface.unsmoothed = any_level_set(*source.unsmoothed, options.isovalue);
   const bool has_data = !surface.mesh.points.empty() && options.isovalue == 0; // the data lie on f = 0
   if (has_data) check_box(source.function, surface.mesh.points, options);
   else surface.mesh = extract(source.function, options, progress);
   if (is_shown && surface.mesh.triangles.empty()) surface.extracted = extract(source.function, options, progress);
+  surface.is_mesh = is_mesh_itself(options) && !surface.mesh.triangles.empty();
+  return surface;
+}
+
+internal::Surface_to_register make_surface_of_any_scale(Surface_options options, bool is_shown, Progress& progress) {
+  read_data_once(options.source, progress);
+  auto surface = make_surface_to_register(options, is_shown, progress);
+  if (options.source.kind != Source_kind::FIT || options.source.fit.scale) return surface;
+  std::vector<Point> points = surface.mesh.points;
+  if (options.source.transformation)
+    for (Point& p : points) p = options.source.transformation->inverse()(p);
+  surface.spacing = internal::mean_spacing(in_threads, points);
+  surface.at_scale = [options, is_shown, &progress](double scale) mutable {
+    options.source.fit.scale = scale;
+    auto result = make_surface_to_register(options, is_shown, progress);
+    progress.begin("looking for the map");
+    return result;
+  };
   return surface;
 }
 
 namespace {
-
-bool contains(const CGAL::Bbox_3& box, const Point& p) {
-  return box.xmin() <= p.x() && p.x() <= box.xmax() && box.ymin() <= p.y() && p.y() <= box.ymax() &&
-         box.zmin() <= p.z() && p.z() <= box.zmax();
-}
-
-/// The distances of points from the image of a surface under the inverse of `back`, to first order; NaN outside of the
-/// image of its domain.
-std::vector<double> distances(const std::vector<Point>& points, const Any_function_3& surface, const Map& back) {
-  const CGAL::Bbox_3 box = surface.bbox();
-  std::vector<double> result(points.size(), std::numeric_limits<double>::quiet_NaN());
-  parallel_for<CGAL::Parallel_if_available_tag>(
-      0, points.size(),
-      [&](std::size_t i) {
-        const Point p = back(points[i]);
-        if (!contains(box, p)) return;
-        const auto jet = surface.first_order(p);
-        const auto& c = jet.coefficients();
-        std::array<double, 3> gradient{};
-        for (int k = 0; k < 3; ++k)
-          gradient[std::size_t(k)] = c[1] * back.m(0, k) + c[2] * back.m(1, k) + c[3] * back.m(2, k);
-        result[i] = std::abs(c[0]) / std::hypot(gradient[0], gradient[1], gradient[2]);
-      },
-      64);
-  return result;
-}
 
 /// Several meshes as one, with columns for all.
 class Joined_meshes {
@@ -140,41 +154,32 @@ void add_frames(const Registered_map_3<Kernel>& registered, double diagonal, Joi
 
 } // namespace
 
-double diagonal_of(const std::vector<Kernel::Point_3>& points) {
-  CGAL::Bbox_3 box;
-  for (const Point& p : points) box += p.bbox();
-  return std::hypot(box.x_span(), box.y_span(), box.z_span());
-}
-
-Mesh moved(Mesh mesh, const Map& map) {
-  for (Point& p : mesh.points) p = map(p);
-  if (determinant_of(map) < 0)
-    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  return mesh;
-}
-
-Annotated_mesh_3<Kernel> moved_source(const Surface_to_register& source, const Distances_of_points& from_target,
-                                      const Map& map) {
-  Annotated_mesh_3<Kernel> result{moved(source.mesh, map), {}};
+Annotated_mesh_3<Kernel> moved_source(const internal::Surface_to_register& source,
+                                      const Distances_of_points& from_target, const Map& map) {
+  Annotated_mesh_3<Kernel> result{internal::moved_mesh(source.mesh, map), {}};
   result.attributes.columns.push_back({"distance", from_target(result.mesh.points)});
   return result;
 }
 
-Annotated_mesh_3<Kernel> registered_surfaces(const Surface_to_register& source, const Surface_to_register& target,
+Annotated_mesh_3<Kernel> registered_surfaces(const internal::Surface_to_register& source,
+                                             const internal::Surface_to_register& target,
                                              const std::array<Distances_of_points, 2>& from_source_and_target,
                                              const Surface_registration_3<Kernel>& registration) {
   const auto& [from_source, from_target] = from_source_and_target;
   const Map map = registration.found() ? registration.best().map : Map(CGAL::IDENTITY);
-  const Mesh image = moved(source.shown(), map);
+  const Mesh image = internal::moved_mesh(source.shown(), map);
   Joined_meshes all;
   all.add(target.shown(), 0, from_source(target.shown().points));
   all.add(image, 1, from_target(image.points));
-  if (registration.found() && registration.best().pair) add_frames(registration.best(), diagonal_of(image.points), all);
+  if (registration.found() && registration.best().pair)
+    add_frames(registration.best(), internal::diagonal_of(image.points), all);
   return std::move(all).result();
 }
 
 Distances_of_points distances_from(const Any_function_3& surface, const Map& back) {
-  return [&surface, back](const std::vector<Point>& points) { return distances(points, surface, back); };
+  return [&surface, back](const std::vector<Point>& points) {
+    return internal::distances_from_image(in_threads, points, surface, back);
+  };
 }
 
 Distances_of_points distances_from(const Mesh& mesh) {
@@ -192,10 +197,10 @@ Annotated_mesh_3<Kernel> surface_with_symmetries(const Mesh& surface, const Affi
                                                  const Distances_of_points& distances) {
   std::vector<double> greatest(surface.points.size(), std::numeric_limits<double>::quiet_NaN());
   for (const auto& symmetry : symmetries.maps) {
-    const auto images = distances(moved(surface, symmetry.map).points);
+    const auto images = distances(internal::moved_mesh(surface, symmetry.map).points);
     for (std::size_t i = 0; i < images.size(); ++i) greatest[i] = std::fmax(greatest[i], images[i]);
   }
-  const double diagonal = diagonal_of(surface.points);
+  const double diagonal = internal::diagonal_of(surface.points);
   const Symmetry_marks marks = marks_of(symmetries);
   Joined_meshes all;
   all.add(surface, 0, std::move(greatest));

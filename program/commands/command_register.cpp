@@ -10,6 +10,8 @@
 #include "picture/draw_surface.h"
 #include "system/files.h"
 #include <equiaffine/base/Input_error.h>
+#include <equiaffine/registration/internal/Surface_to_register.h>
+#include <equiaffine/registration/register_surfaces.h>
 
 #include <array>
 #include <string>
@@ -36,10 +38,11 @@ Outputs outputs_of(const Symmetries_options& options) {
 }
 
 /// The distances of points from the moved source, or the source as it is if there is no map, and from the target.
-std::array<Distances_of_points, 2> distances_from_surfaces(const Found_map& found) {
-  const Map map = found.registration.found() ? found.registration.best().map : Map(CGAL::IDENTITY);
-  const Surface_to_register &source = found.source, &target = found.target;
-  if (found.is_by_triangles) return {distances_from(moved(source.mesh, map)), distances_from(target.mesh)};
+std::array<Distances_of_points, 2> distances_from_surfaces(const internal::Registration_of_surfaces& found) {
+  const auto& [source, target, registration] = found;
+  const Map map = registration.found() ? registration.best().map : Map(CGAL::IDENTITY);
+  if (registration.is_by_triangles)
+    return {distances_from(internal::moved_mesh(source.mesh, map)), distances_from(target.mesh)};
   return {distances_from(source.refined(), map.inverse()), distances_from(target.refined())};
 }
 
@@ -48,15 +51,14 @@ std::array<Distances_of_points, 2> distances_from_surfaces(const Found_map& foun
 void run_register(const Register_options& options, std::ostream& out, Progress& progress) {
   Outputs outputs = outputs_of(options);
   const bool is_shown = options.display.shows_something();
-  const Found_map found = find_map(options, progress);
-  const Surface_to_register &source = found.source, &target = found.target;
+  const internal::Registration_of_surfaces found = find_map(options, progress);
   const Registration_report report = report_of(options, found);
   progress.begin("writing");
   if (!report.registration.found()) outputs.remove(Output_kind::MOVED);
   outputs[Output_kind::RESULT].stream() << to_JSON(report);
   if (is_shown) {
     const auto [mesh, attributes] =
-        registered_surfaces(source, target, distances_from_surfaces(found), report.registration);
+        registered_surfaces(found.source, found.target, distances_from_surfaces(found), report.registration);
     const Display_options display = display_of(report, options.display);
     write_displays(
         outputs, mesh, attributes, display,
@@ -64,7 +66,7 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
   }
   if (Output_file* const file = outputs.find(Output_kind::MOVED)) {
     const auto [mesh, attributes] =
-        moved_source(source, distances_from_surfaces(found)[1], report.registration.best().map);
+        moved_source(found.source, distances_from_surfaces(found)[1], report.registration.best().map);
     write_surface(*file, mesh, attributes);
     warn_of_lost_points(file->path(), mesh.points, progress);
   }

@@ -5,14 +5,14 @@
 #include "source/source.h"
 #include "source/source_function.h"
 #include <equiaffine/base/Input_error.h>
-#include <equiaffine/base/internal/index_sets.h>
+#include <equiaffine/fit/remove_small_fragments.h>
 #include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/marching_cubes/marching_cubes.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
-#include <equiaffine/mesh/mesh_topology.h>
+#include <equiaffine/mesh/internal/surface_parts.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Bbox_3.h>
@@ -36,7 +36,7 @@ namespace equiaffine {
 Isosurface_3<Kernel> extract_surface(const Source_function& function, double isovalue, const Source_options& options,
                                      Vertex_position vertices) {
   const auto nodes = options.resolution.value_or(default_resolution(options.kind));
-  return isosurface_of_source(function, isovalue, nodes, vertices);
+  return isosurface_of_source(function, isovalue, {.resolution = nodes, .vertices = vertices});
 }
 
 namespace {
@@ -150,8 +150,7 @@ std::string zeros_without_change_of_sign(const Any_function_3& f) {
 
 template <class Traits>
 bool changes_sign_at_poles_only(const Traits& function) {
-  const auto surface =
-      marching_cubes<CGAL::Parallel_if_available_tag>(function, parameters::number_of_nodes({32, 32, 32}));
+  const auto surface = marching_cubes<CGAL::Parallel_if_available_tag>(function, {.resolution = 32});
   const auto& status = surface.vertex_status;
   return surface.repairs.vertices_at_poles + status.size() > 0 &&
          std::count(status.begin(), status.end(), Point_status::UNCONVERGED) == std::ptrdiff_t(status.size());
@@ -197,73 +196,14 @@ void fail_without_surface(const Source_function& function, const Source_options&
   throw Input_error(text.str());
 }
 
-namespace {
-
-double diagonal(const CGAL::Bbox_3& box) { return std::hypot(box.x_span(), box.y_span(), box.z_span()); }
-
-/// Whether the inner box comes within a step of the grid to the sides of the outer one, where it may be cut off.
-bool is_cut_off(const CGAL::Bbox_3& inner, const CGAL::Bbox_3& outer, const std::array<std::size_t, 3>& nodes) {
-  for (int a = 0; a < 3; ++a) {
-    const double step = (outer.max(a) - outer.min(a)) / double(nodes[std::size_t(a)] - 1);
-    if (inner.min(a) < outer.min(a) + step || inner.max(a) > outer.max(a) - step) return true;
-  }
-  return false;
-}
-
-Disjoint_sets<std::uint32_t> components_of(const Isosurface_3<Kernel>& surface) {
-  Disjoint_sets<std::uint32_t> components(surface.points.size());
-  for (const auto& [a, b, c] : surface.triangles) components.unite(a, b), components.unite(a, c);
-  return components;
-}
-
-/// Removes the vertices that are in no triangle, and keeps the order of the others.
-void remove_isolated_vertices(Isosurface_3<Kernel>& surface) {
-  std::vector<bool> is_used(surface.points.size(), false);
-  for (const auto& triangle : surface.triangles)
-    for (const std::uint32_t v : triangle) is_used[v] = true;
-  std::vector<std::uint32_t> number(surface.points.size());
-  std::uint32_t kept = 0;
-  for (std::size_t v = 0; v < surface.points.size(); ++v) {
-    if (!is_used[v]) continue;
-    surface.points[kept] = surface.points[v];
-    surface.vertex_status[kept] = surface.vertex_status[v];
-    number[v] = kept++;
-  }
-  surface.points.erase(surface.points.begin() + std::ptrdiff_t(kept), surface.points.end());
-  surface.vertex_status.resize(kept);
-  for (auto& triangle : surface.triangles)
-    for (std::uint32_t& v : triangle) v = number[v];
-}
-
-} // namespace
-
 void remove_small_fragments(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const Source_options& options) {
-  constexpr double reach = 2.5; // in spacings, from side to side
-  const std::size_t n = surface.points.size();
-  auto parts = components_of(surface);
-  std::vector<CGAL::Bbox_3> boxes(n);
-  std::vector<bool> have_border(n, false), are_fragments(n, false);
-  const auto back =
-      options.transformation ? options.transformation->inverse() : CGAL::Aff_transformation_3<Kernel>(CGAL::IDENTITY);
-  const auto to_data = [&](const Kernel::Point_3& p) { return options.transformation ? back(p) : p; };
   const auto nodes = options.resolution.value_or(default_resolution(options.kind));
-  for (std::uint32_t v = 0; v < n; ++v) boxes[parts.find(v)] += to_data(surface.points[v]).bbox();
-  internal::for_each_vertex_link(surface.triangles, n, [&](const auto& link) {
-    link.for_each_neighbor([&](std::uint32_t, std::size_t triangles_at_edge) {
-      if (triangles_at_edge == 1) have_border[parts.find(link.vertex())] = true;
-    });
-  });
-  for (std::uint32_t v = 0; v < n; ++v)
-    are_fragments[v] = parts.find(v) == v && have_border[v] &&
-                       diagonal(boxes[v]) < reach * fit.spacing(to_data(surface.points[v])) &&
-                       !is_cut_off(boxes[v], fit.bbox(), nodes);
-  if (std::find(are_fragments.begin(), are_fragments.end(), true) == are_fragments.end()) return;
-  std::erase_if(surface.triangles, [&](const auto& t) { return are_fragments[parts.find(t[0])]; });
-  remove_isolated_vertices(surface);
+  if (options.transformation) remove_small_fragments(surface, fit, nodes, options.transformation->inverse());
+  else remove_small_fragments(surface, fit, nodes);
 }
 
 std::size_t keep_largest(Isosurface_3<Kernel>& surface, std::size_t count, std::vector<double>& values) {
-  auto components = components_of(surface);
+  auto components = internal::components_of(surface);
   std::map<std::uint32_t, double> areas;
   for (const auto& [a, b, c] : surface.triangles)
     areas[components.find(a)] +=
@@ -278,7 +218,7 @@ std::size_t keep_largest(Isosurface_3<Kernel>& surface, std::size_t count, std::
   std::erase_if(surface.triangles, [&](const auto& t) { return is_left_out(t[0]); });
   std::uint32_t v = 0;
   std::erase_if(values, [&](double) { return is_left_out(v++); });
-  remove_isolated_vertices(surface);
+  internal::remove_isolated_vertices(surface);
   return sorted.size() - count;
 }
 

@@ -6,7 +6,7 @@
 #include "request/source_options.h"
 #include "source/source_function.h"
 #include "system/kernel.h"
-#include <equiaffine/marching_cubes/Vertex_position.h>
+#include <equiaffine/marching_cubes/Marching_cubes_options.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <cstddef>
@@ -34,9 +34,7 @@ bool changes_sign_at_poles_only(const Source_function& function, double isovalue
 [[noreturn]] void fail_without_surface(const Source_function& function, const Source_options& source, double isovalue,
                                        const Vain_search& search);
 
-/// Removes the parts of the zero set of a fit that have a border and are no larger than what the band of one point
-/// reaches: small fragments beside the border of the surface, where the band is ragged. A polynomial needs the points of a
-/// larger part.
+/// Removes small fragments from the zero set of a fit, which was sampled on the grid of the options.
 void remove_small_fragments(Isosurface_3<Kernel>& surface, const Fit_traits& fit, const Source_options& options);
 
 /// Keeps the connected components with the greatest areas, and `values`, one per vertex or none, of their vertices.

@@ -12,6 +12,7 @@
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/volume/Lattice_3.h>
 
 #include <CGAL/Bbox_3.h>
 
@@ -94,26 +95,28 @@ Annotated_surface sample(const Source_function& function, const Mesh_options& op
   const CGAL::Bbox_3 box = level_set.bbox();
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
   check_box_of_delaunay_surface(box);
-  const Clip_domain_3 domain = method.clips_to_ball ? Clip_domain_3::ball_in(box) : Clip_domain_3(box);
+  const Clip_domain_3 domain = clip_domain(method.clip, box);
   check_box_of_delaunay_surface(domain.bbox());
-  Delaunay_criteria criteria = {method.angle, method.radius, method.distance};
-  criteria.radius = std::min(criteria.radius, diagonal); // a larger bound would mean the same
-  criteria = criteria.completed(Clip_domain_3(box));
-  check_memory_of_delaunay_surface(diagonal, criteria.radius, criteria.distance, options.source.memory_use);
-  check_radius_of_delaunay_surface(box, criteria.radius);
-  const auto parameters = parameters::clip(domain).facet_sizing(method.sizing);
-  const double fineness = diagonal / std::min(criteria.radius, std::sqrt(criteria.distance * diagonal));
+  Delaunay_options delaunay = method;
+  if (delaunay.radius) delaunay.radius = std::min(*delaunay.radius, diagonal); // a larger bound would mean the same
+  delaunay = delaunay.completed(box);
+  const double radius = *delaunay.radius, distance = *delaunay.distance;
+  check_memory_of_delaunay_surface(diagonal, radius, distance, options.source.memory_use);
+  check_radius_of_delaunay_surface(box, radius);
+  const double fineness = diagonal / std::min(radius, std::sqrt(distance * diagonal));
   announce_duration(extracting, "a larger --radius or --distance", fineness, false, progress, [&](double coarse) {
-    const double factor = fineness / coarse, radius = std::min(factor * criteria.radius, diagonal),
-                 distance = std::min(factor * factor * criteria.distance, diagonal);
-    delaunay_surface(level_set, {criteria.angle, radius, distance}, parameters);
+    const double factor = fineness / coarse;
+    Delaunay_options coarser = delaunay;
+    coarser.radius = std::min(factor * radius, diagonal);
+    coarser.distance = std::min(factor * factor * distance, diagonal);
+    delaunay_surface(level_set, coarser);
   });
   progress.begin(extracting);
-  auto mesh = options.curves ? delaunay_surface(level_set, criteria, parameters.parabolic_features())
-                             : delaunay_surface(level_set, criteria, parameters);
+  delaunay.parabolic_curves = options.curves.has_value();
+  auto mesh = delaunay_surface(level_set, delaunay);
   if (mesh.triangles.empty())
     fail_without_surface(function, options.source, options.isovalue,
-                         {method.clips_to_ball ? "ball" : "box", mesh.is_certified ? "" : "a smaller --radius",
+                         {domain.is_ball() ? "ball" : "box", mesh.is_certified ? "" : "a smaller --radius",
                           changes_sign_at_poles_only(function, options.isovalue), mesh.is_certified});
   Annotated_surface surface;
   surface.completeness = {mesh.is_certified, std::move(mesh.undecided_boxes)};
@@ -156,6 +159,14 @@ Annotated_surface sample(const Source_function& function, const Mesh_options& op
   return surface;
 }
 
+/// The length of the longest step of the grid of a source on a box.
+double longest_step(const CGAL::Bbox_3& box, const Source_options& options) {
+  const Lattice_3<Kernel> lattice(options.resolution.value_or(default_resolution(options.kind)), box);
+  double longest = 0;
+  for (const auto& step : lattice.steps()) longest = std::max(longest, std::sqrt(step.squared_length()));
+  return longest;
+}
+
 /// Samples the surface and computes its attributes, unless that is done later.
 Annotated_surface annotated_surface(const Source& source, const Mesh_options& options, Remesh remesh,
                                     Attribute_time time, Progress& progress) {
@@ -165,7 +176,7 @@ Annotated_surface annotated_surface(const Source& source, const Mesh_options& op
     if (surface.mesh.triangles.empty())
       fail_without_surface(source.function, options.source, options.isovalue, {"box", "a finer --resolution", false});
     if (std::holds_alternative<Marching_cubes_options>(options.method))
-      surface.close_sheets = close_sheets(*source.fit, options.source);
+      surface.close_sheets = source.fit->close_sheets(longest_step(source.fit->bbox(), options.source));
   }
   if (options.largest) surface.components_left_out = keep_largest(surface.mesh, *options.largest, surface.outcomes);
   if (surface.components_left_out > 0) surface.curves.reset(); // they are found anew, on what is left
@@ -243,7 +254,7 @@ Annotated_surface surface_of(const Source& source, const Mesh_options& options, 
 Made_surface make_surface(const Mesh_options& options, Progress& progress, Attribute_time time) {
   const Stopwatch stopwatch;
   const auto* const delaunay = std::get_if<Delaunay_options>(&options.method);
-  Source source = make_source(options.source, progress, delaunay ? delaunay->radius : 0);
+  Source source = make_source(options.source, progress, delaunay ? delaunay->radius.value_or(0) : 0);
   const double seconds = stopwatch.seconds();
   Remesh remesh = remesh_of_source(source, options, progress);
   Annotated_surface surface = annotated_surface(source, options, std::move(remesh), time, progress);

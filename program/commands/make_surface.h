@@ -74,11 +74,9 @@ struct Remeshed_fit {
   Remesh_statistics statistics;
 };
 
-/// Remeshes the data of a fit. Where they choose its scale, and many vertices would be beside the fit, that scale is too
-/// large for the shape: smaller ones are tried while they leave fewer vertices beside the fit and numbers known at about
-/// as many, and `source` becomes a fit at such a scale if it leaves a third fewer. Throws `Input_error` if the data have no
-/// faces, or if they are no mesh.
-Remeshed_fit remesh_fit(Source& source, Source_options options, const Remesh_options& how, Progress& progress);
+/// Remeshes the data of a fit as remesh_by_fit() does. If that chooses a smaller scale, `source` becomes the fit at that
+/// scale. Throws `Input_error` if the data have no faces, or if they are no mesh.
+Remeshed_fit remesh_fit(Source& source, const Source_options& options, const Remesh_options& how, Progress& progress);
 
 } // namespace equiaffine
 

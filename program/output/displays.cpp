@@ -2,6 +2,7 @@
 #include "output/displays.h"
 
 #include "output/json_text.h"
+#include "output/statistics.h"
 #include "picture/draw_surface.h"
 #include "system/files.h"
 #include "system/kernel.h"

@@ -6,8 +6,8 @@
 #include "output/Outputs.h"
 #include "picture/Surface_paint.h"
 #include "request/options.h"
-#include "source/Fit_statistics.h"
 #include "system/kernel.h"
+#include <equiaffine/attributes/Fit_statistics.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <cstddef>

@@ -2,10 +2,10 @@
 #include "output/maps.h"
 
 #include "output/json_text.h"
-
-#include <CGAL/determinant.h>
+#include <equiaffine/registration/internal/searches.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -22,15 +22,24 @@ std::string power_of_ten(double logarithm) {
 }
 
 /// "; try this, or that"
-std::string advice_text(const std::vector<std::string>& advice) {
+std::string try_text(const std::vector<Registration_advice>& advice) {
   std::string text;
-  for (const std::string& each : advice) text += (text.empty() ? "; try " : ", or ") + each;
+  for (const Registration_advice each : advice) text += (text.empty() ? "; try " : ", or ") + advice_text(each);
   return text;
+}
+
+/// "0.14", or "0.14 and 0.2" for the source and the target.
+std::string scales_text(const std::array<double, 2>& scales) {
+  std::ostringstream text;
+  text.precision(2);
+  text << scales[0];
+  if (scales[1] != scales[0]) text << " and " << scales[1];
+  return text.str();
 }
 
 std::size_t reflections_of(const Symmetries& symmetries) {
   return std::size_t(std::count_if(symmetries.maps.begin(), symmetries.maps.end(),
-                                   [](const auto& symmetry) { return determinant_of(symmetry.map) < 0; }));
+                                   [](const auto& symmetry) { return internal::determinant_of(symmetry.map) < 0; }));
 }
 
 /// The level whose maps are the symmetries, if there is one.
@@ -120,9 +129,29 @@ std::string ways(std::size_t number) { return std::to_string(number) + (number =
 
 } // namespace
 
-double determinant_of(const CGAL::Aff_transformation_3<Kernel>& map) {
-  return CGAL::determinant(map.m(0, 0), map.m(0, 1), map.m(0, 2), map.m(1, 0), map.m(1, 1), map.m(1, 2), map.m(2, 0),
-                           map.m(2, 1), map.m(2, 2));
+std::string advice_text(Registration_advice advice) {
+  switch (advice) {
+  case Registration_advice::SIMILARITIES_OF_FRAMES:
+    return "--kind similarity, whose frames need fewer derivatives and exist on quadrics, too";
+  case Registration_advice::SIMILARITIES_OF_OTHER_SIZE: return "--kind similarity, which allows other sizes";
+  case Registration_advice::SIMILARITIES_OF_TRIANGLES: return "--kind similarity, which needs no curvature";
+  case Registration_advice::ALL_MAPS: return "--kind affine, which allows all maps";
+  case Registration_advice::RIGID_MAPS: return "--kind rigid, whose maps need no solid";
+  case Registration_advice::REFLECTIONS: return "the command without --no-reflection";
+  case Registration_advice::SAME_SCALE: return "the same --scale R on both sides";
+  case Registration_advice::LARGER_SAME_SCALE: return "a larger --scale, the same on both sides";
+  case Registration_advice::A_SCALE: return "--scale R for the fit";
+  case Registration_advice::LARGER_SCALE: return "a larger --scale";
+  case Registration_advice::FIT_OF_MESH:
+    return "--fit in place of --distance-to, since facets have no affine curvature";
+  case Registration_advice::SMOOTHING: return "--smoothing auto for the volume";
+  case Registration_advice::LARGER_TOLERANCE: return "a larger --tolerance";
+  case Registration_advice::OTHER_TOLERANCE:
+    return "--tolerance PART for another distance to which maps may move points";
+  case Registration_advice::SMALLER_OVERLAP: return "a smaller --min-overlap";
+  case Registration_advice::MORE_IN_COMMON: break;
+  }
+  return "surfaces that have more in common";
 }
 
 std::string overlap_text(const Registered_map_3<Kernel>& map) {
@@ -163,15 +192,12 @@ std::string reason_for_none(const Registration_report& report) {
     return std::string("no map found: no points of the two have frames that ") + (slides ? "are determined and " : "") +
            "agree" + of_triangles;
   std::string scales;
-  for (const std::string& scale : report.scales) scales += (scales.empty() ? " (at the scales " : "; ") + scale;
+  for (const auto& pair : report.registration.scales)
+    scales += (scales.empty() ? " (at the scales " : "; ") + scales_text(pair);
   if (!scales.empty()) scales += ')';
   return "no map found: " + (n == 1 ? "the only hypothesis is no" : "none of " + std::to_string(n) + " hypotheses is") +
-         " better than chance" + (report.maps_left_out > 0 ? " for more than a small part" : "") + scales +
+         " better than chance" + (report.registration.maps_left_out > 0 ? " for more than a small part" : "") + scales +
          of_triangles;
-}
-
-bool is_undecided(const Symmetries& symmetries) {
-  return !symmetries.is_decided && symmetries.continuous.dimension() == 0;
 }
 
 std::string reason_for_undecided(const Symmetries& symmetries) {
@@ -220,16 +246,17 @@ std::string summary(const Registration_report& report) {
   const std::size_t dimension = registration.slippage.dimension();
   std::ostringstream text;
   if (!registration.found()) {
-    text << reason_for_none(report) << advice_text(report.advice) << '\n';
+    text << reason_for_none(report) << try_text(registration.advice) << '\n';
   } else {
     const auto& best = registration.best();
     text.precision(3);
-    text << "map found, determinant " << determinant_of(best.map) << ": " << odds_text(best) << '\n';
+    text << "map found, determinant " << internal::determinant_of(best.map) << ": " << odds_text(best) << '\n';
     text << "on the other surface: " << overlap_text(best) << contradictions_text(best) << '\n';
     text << "rms distance " << rms_text(registration) << '\n';
     text << registration.hypotheses << (registration.hypotheses == 1 ? " hypothesis" : " hypotheses");
-    if (report.is_by_triangles) text << ", the last ones by the triangles without curvature";
-    else if (!report.scales.empty()) text << ", the last ones at scale " << report.scales.back();
+    if (registration.is_by_triangles) text << ", the last ones by the triangles without curvature";
+    else if (!registration.scales.empty())
+      text << ", the last ones at scale " << scales_text(registration.scales.back());
     if (registration.next_best_rms) text << ", next best rms distance " << *registration.next_best_rms;
     text << '\n';
     if (report.has_all_maps) text << registration.maps.size() << (registration.maps.size() == 1 ? " map\n" : " maps\n");
@@ -253,13 +280,13 @@ std::string summary(const Symmetries_report& report) {
   if (report.is_complete) rest += completeness_text(symmetries);
   if (report.has_rigid_maps_only)
     text = "rigid ones only, since the mesh bounds no solid, by whose moments affine ones are found:\n";
-  if (is_undecided(symmetries)) {
-    text += "undecided: " + reason_for_undecided(symmetries) + advice_text(report.advice) + '\n';
+  if (symmetries.is_undecided()) {
+    text += "undecided: " + reason_for_undecided(symmetries) + try_text(symmetries.advice) + '\n';
   } else if (dimension > 0 && symmetries.levels.empty()) {
     text += "infinitely many symmetries" + within_text(symmetries.continuous.rms, 0) +
             ": the surface slides over itself in " + ways(dimension) + '\n';
   } else if (symmetries.maps.size() == 1) {
-    text += "1 symmetry, the identity" + advice_text(report.advice) + '\n';
+    text += "1 symmetry, the identity" + try_text(symmetries.advice) + '\n';
   } else {
     const std::size_t reflections = reflections_of(symmetries);
     const auto* const level = level_of_maps(symmetries);
@@ -282,7 +309,7 @@ void add(const CGAL::Aff_transformation_3<Kernel>& map, Json& json) {
 
 void add(const Registered_map_3<Kernel>& map, Json& json) {
   add(map.map, json);
-  json["determinant"] = determinant_of(map.map);
+  json["determinant"] = internal::determinant_of(map.map);
   json["log10_false_alarms"] = map.log10_false_alarms;
   json["inliers"] = map.inliers;
   json["rms"] = map.rms;
@@ -320,9 +347,9 @@ std::string to_JSON(const Registration_report& report) {
   Json json = begin_JSON(report.source);
   json["target"] = report.target;
   json["found"] = registration.found();
-  if (!report.scales.empty()) json["scales"] = report.scales;
+  for (const auto& scales : registration.scales) json["scales"].push_back(scales_text(scales));
   if (!registration.found()) return text_of(json);
-  json["matched_by"] = report.is_by_triangles ? "triangles" : "frames";
+  json["matched_by"] = registration.is_by_triangles ? "triangles" : "frames";
   add(registration.best(), json);
   json["hypotheses"] = registration.hypotheses;
   json["equally_good"] = registration.equally_good;
@@ -342,7 +369,7 @@ std::string to_JSON(const Symmetries_report& report) {
   if (const auto order = symmetries.order()) json["order"] = *order;
   json["verdict"] = verdict_text(symmetries.verdict);
   json["undecided"] = nullptr;
-  if (is_undecided(symmetries)) json["undecided"] = reason_for_undecided(symmetries);
+  if (symmetries.is_undecided()) json["undecided"] = reason_for_undecided(symmetries);
   json["complete_to"] = nullptr;
   if (symmetries.complete_to) json["complete_to"] = *symmetries.complete_to;
   json["kind"] = keeps_angles(symmetries.kind) ? "rigid" : "affine";

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_PROGRAM_OUTPUT_MAPS_H
 
 #include "system/kernel.h"
+#include <equiaffine/registration/Registration_options.h>
 #include <equiaffine/registration/affine_symmetries.h>
 #include <equiaffine/registration/register_surfaces.h>
 
@@ -15,12 +16,7 @@ namespace equiaffine {
 struct Registration_report {
   std::string source, target;
   Surface_registration_3<Kernel> registration;
-  bool has_all_maps = false;       ///< whether all maps were asked for
-  bool is_by_triangles = false;    ///< whether triangles without their curvature gave the map
-  std::size_t maps_left_out = 0;   ///< by which too small a part agrees, with another ratio of sizes than of scales, or
-                                   ///< with large contradictions between closed meshes
-  std::vector<std::string> scales; ///< of the fits that were tried one after the other, the last one with success
-  std::vector<std::string> advice; ///< what to try if no map was found
+  bool has_all_maps = false; ///< whether all maps were asked for
 };
 
 using Symmetries = Affine_symmetries_3<Kernel>;
@@ -31,10 +27,10 @@ struct Symmetries_report {
   Symmetries symmetries;
   bool is_complete = false;         ///< whether a search of all rotations was asked for
   bool has_rigid_maps_only = false; ///< whether affine maps were asked for and could not be sought
-  std::vector<std::string> advice;  ///< what to try if nothing is decided
 };
 
-double determinant_of(const CGAL::Aff_transformation_3<Kernel>& map);
+/// "--kind affine, which allows all maps"
+std::string advice_text(Registration_advice advice);
 
 /// "97 % of the source, 37 % of the target"
 std::string overlap_text(const Registered_map_3<Kernel>& map);
@@ -52,10 +48,7 @@ std::string odds_text(const Registered_map_3<Kernel>& map);
 /// "no map found: ..." and why.
 std::string reason_for_none(const Registration_report& report);
 
-/// Whether it is not known how many symmetries there are.
-bool is_undecided(const Symmetries& symmetries);
-
-/// Why it is not.
+/// Why it is not known how many symmetries there are.
 std::string reason_for_undecided(const Symmetries& symmetries);
 
 /// How many symmetries have a positive determinant, and how many a negative one.

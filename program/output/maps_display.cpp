@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/maps_display.h"
 
+#include <equiaffine/registration/internal/searches.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
@@ -227,11 +229,11 @@ Description description_of(const Registration_report& report, const Display_opti
   Description description = {{"Source", report.source}, {"Target", report.target}};
   if (!report.registration.found()) {
     description.emplace_back("Map", reason_for_none(report));
-    for (const std::string& advice : report.advice) description.emplace_back("Try", advice);
+    for (const auto advice : report.registration.advice) description.emplace_back("Try", advice_text(advice));
   } else {
     const auto& best = report.registration.best();
     description.emplace_back("Map", "found");
-    description.emplace_back("Determinant", number_text(determinant_of(best.map), 3));
+    description.emplace_back("Determinant", number_text(internal::determinant_of(best.map), 3));
     description.emplace_back("On the other surface", overlap_text(best) + contradictions_text(best));
     description.emplace_back("Rms distance", rms_text(report.registration));
     if (const auto& next = report.registration.next_best_rms)
@@ -248,10 +250,10 @@ std::vector<Surface_note> notes_of(const Registration_report& report, const Disp
   std::vector<Surface_note> notes;
   if (!report.registration.found()) {
     add_text(reason_for_none(report), notes);
-    for (const std::string& advice : report.advice) add_text("try " + advice, notes);
+    for (const auto advice : report.registration.advice) add_text("try " + advice_text(advice), notes);
   } else {
     const auto& best = report.registration.best();
-    add_text("determinant " + number_text(determinant_of(best.map), 3) + ": " + odds_text(best), notes);
+    add_text("determinant " + number_text(internal::determinant_of(best.map), 3) + ": " + odds_text(best), notes);
     add_text("on the other surface: " + overlap_text(best) + contradictions_text(best), notes);
     add_text("rms distance " + rms_text(report.registration), notes);
   }
@@ -274,7 +276,7 @@ Description description_of(const Symmetries_report& report, const Display_option
   const Symmetries& symmetries = report.symmetries;
   const auto order = symmetries.order();
   Description description = {{"Symmetries of", report.source}};
-  if (is_undecided(symmetries)) description.emplace_back("Order", "undecided: " + reason_for_undecided(symmetries));
+  if (symmetries.is_undecided()) description.emplace_back("Order", "undecided: " + reason_for_undecided(symmetries));
   else description.emplace_back("Order", order ? std::to_string(*order) : "infinite");
   if (!symmetries.levels.empty()) description.emplace_back("Levels", levels_text(symmetries));
   if (symmetries.continuous.dimension() > 0)
@@ -282,7 +284,7 @@ Description description_of(const Symmetries_report& report, const Display_option
   if (order) description.emplace_back("Determinants", determinants_text(symmetries));
   if (report.has_rigid_maps_only) description.emplace_back("Kind", "rigid ones only, since the mesh bounds no solid");
   for (const std::string& limit : limits_of(symmetries)) description.emplace_back("Limit", limit);
-  for (const std::string& advice : report.advice) description.emplace_back("To find more, try", advice);
+  for (const auto advice : symmetries.advice) description.emplace_back("To find more, try", advice_text(advice));
   description.emplace_back("surface", numbers_text(shown_surfaces(symmetries), shows_surfaces(options)));
   return description;
 }

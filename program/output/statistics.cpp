@@ -2,13 +2,16 @@
 #include "output/statistics.h"
 
 #include "output/json_text.h"
+#include <equiaffine/attributes/internal/error_table.h>
 #include <equiaffine/io/read_points.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <ostream>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 namespace equiaffine {
@@ -86,13 +89,25 @@ void add_status(const Mesh_facts& facts, std::ostream& text) {
   text << '\n';
 }
 
+/// The words and symbols of `affine_quantities`.
+struct Words {
+  std::string_view label, symbol;
+};
+constexpr std::array<Words, affine_quantities.size()> words_of_quantities = {
+    {{"affine Gaussian curvature", "K"},
+     {"affine mean curvature", "H"},
+     {"Pick invariant", "J"},
+     {"affine normal", "affine normal"},
+     {"affine area density", "affine area density"}}};
+
 void add_fit(const Fit_statistics& fit, std::ostream& text) {
   text.precision(3);
   if (fit.scale) {
-    const auto [label, parts] = first_known(fit);
-    const auto& [to_10, to_20, to_50] = parts;
-    text << "at scale " << *fit.scale << ": " << label << " known to 20 % at " << percent(to_20) << " %, to 50 % at "
-         << percent(to_50) << " % of the vertices; noise " << fit.noise << '\n';
+    const std::string_view first = first_known(fit);
+    const auto place = std::find(affine_quantities.begin(), affine_quantities.end(), first) - affine_quantities.begin();
+    const auto& [to_10, to_20, to_50] = fit.known_of(first);
+    text << "at scale " << *fit.scale << ": " << words_of_quantities[std::size_t(place)].label << " known to 20 % at "
+         << percent(to_20) << " %, to 50 % at " << percent(to_50) << " % of the vertices; noise " << fit.noise << '\n';
   } else {
     text.precision(2);
     if (std::isfinite(fit.noise))
@@ -124,6 +139,16 @@ void add_remesh(const Remesh_statistics& remesh, std::ostream& text) {
 }
 
 } // namespace
+
+std::string table_of_known(const Fit_statistics& fit) {
+  std::ostringstream text;
+  for (std::size_t n = 0; n < affine_quantities.size(); ++n) {
+    const auto& [to_10, to_20, to_50] = fit.known_of(affine_quantities[n]);
+    text << (n == 0 ? "" : ", ") << words_of_quantities[n].symbol << ' ' << percent(to_20) << " / " << percent(to_50);
+  }
+  text << "; K as a part of |K| + H^2, H of its root";
+  return text.str();
+}
 
 std::string to_JSON(const Statistics& s) {
   Json json = begin_JSON(s.source);

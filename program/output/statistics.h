@@ -2,8 +2,9 @@
 #ifndef EQUIAFFINE_PROGRAM_OUTPUT_STATISTICS_H
 #define EQUIAFFINE_PROGRAM_OUTPUT_STATISTICS_H
 
-#include "source/Fit_statistics.h"
 #include "source/source.h"
+#include <equiaffine/attributes/Fit_statistics.h>
+#include <equiaffine/fit/Close_sheets.h>
 #include <equiaffine/fit/Fit_outcome.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/mesh/mesh_topology.h>
@@ -61,6 +62,10 @@ struct Annotation_statistics : Mesh_facts {
 };
 
 std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_status> status);
+
+/// "K 64 / 89, H 54 / 81, ...": at how many percent of the points each of `affine_quantities` is known to 20 and to 50 %,
+/// and of what these are parts.
+std::string table_of_known(const Fit_statistics& fit);
 
 /// One object, see the section on statistics of doc/program.md. A distance that is not a finite number is null.
 std::string to_JSON(const Statistics& statistics);

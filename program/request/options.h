@@ -4,12 +4,12 @@
 
 #include "request/source_options.h"
 #include <equiaffine/attributes/Attribute_selection.h>
-#include <equiaffine/delaunay/Delaunay_criteria.h>
+#include <equiaffine/delaunay/Delaunay_options.h>
 #include <equiaffine/display/color_map.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/reference_estimators.h>
-#include <equiaffine/marching_cubes/Vertex_position.h>
-#include <equiaffine/registration/Map_kind.h>
+#include <equiaffine/marching_cubes/Marching_cubes_options.h>
+#include <equiaffine/registration/Registration_options.h>
 
 #include <array>
 #include <cstddef>
@@ -34,27 +34,11 @@ struct Display_options {
   bool shows_something() const { return html || png; }
 };
 
-struct Marching_cubes_options {
-  Vertex_position vertices = Vertex_position::PROJECTED;
-};
-
-struct Delaunay_options {
-  double angle = 30;               ///< the least angle of triangles, in degrees
-  double radius = 0, distance = 0; ///< as in Delaunay_criteria; 0 stands for the default
-  Facet_sizing sizing = Facet_sizing::UNIFORM;
-  bool clips_to_ball = false; ///< whether the surface is cut off at the largest ball in the box, not at the box
-};
-
-/// The faces of the data of a fit, remeshed, whose vertices are moved onto the fit.
-struct Remesh_options {
-  std::optional<double> edge_length; ///< of the remesh; the mean one of the data if there is none
-};
-
 struct Mesh_options {
   Source_options source;
   double isovalue = 0;
   Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
-  std::variant<Marching_cubes_options, Delaunay_options, Remesh_options> method;
+  std::variant<Marching_cubes_options, Delaunay_options, Remesh_options> method; ///< the resolution is the source's
   std::optional<std::size_t> largest; ///< so many connected components of the greatest areas are kept, or all
   bool remeshes_faces = false; ///< whether the faces of a fit that form a surface are remeshed without the `method`
   Attribute_selection attributes;
@@ -102,18 +86,10 @@ struct Surface_options {
   double isovalue = 0;
 };
 
-/// The maps among which one is sought.
-struct Map_options {
-  Map_kind kind = Map_kind::AFFINE;
-  bool allows_reflections = true;
-};
-
 struct Register_options {
-  Surface_options source, target;
-  Map_options maps;
-  std::optional<std::size_t> number_of_maps; ///< if all maps were asked for, up to this number
-  double least_overlap = 0.05;               ///< a part of a surface
-  std::optional<double> tolerance;           ///< a part of the size of the target; if there is none, the data decide
+  Surface_options source, target;    ///< each with a fit of its own
+  Registration_options registration; ///< but its fit
+  bool lists_maps = false;           ///< whether all maps that are found are written, and not the best one alone
   std::string output;
   std::optional<std::string> moved;
   Display_options display;
@@ -121,9 +97,7 @@ struct Register_options {
 
 struct Symmetries_options {
   Surface_options surface;
-  Map_options maps;
-  std::optional<double> tolerance; ///< a part of the size of the surface; if there is none, the source decides
-  bool is_complete = false;        ///< whether all rotations are to be searched
+  Symmetry_options symmetries; ///< but its fit
   std::string output;
   Display_options display;
 };

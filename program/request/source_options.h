@@ -4,9 +4,10 @@
 
 #include "system/kernel.h"
 #include "system/memory_limit.h"
+#include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
-#include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/Volume_options.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Bbox_3.h>
@@ -44,21 +45,6 @@ enum class Source_kind { FUNCTION, VOLUME, DISTANCE, FIT };
 /// The origin of derivatives: the formula or the fit itself, or a spline through samples.
 enum class Derivatives { JETS, SPLINE };
 
-/// How samples become a function.
-struct Spline_options {
-  int degree = 7;
-  Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION;
-  std::optional<double> smoothing = 0; ///< a scale in voxels; without a value the noise decides
-  std::optional<double> isovalue;      ///< noise is measured beside this level set, or everywhere
-};
-
-/// The parameters of a fit that a user gave; the data decide the others.
-struct Fit_options {
-  std::optional<double> scale, noise; ///< lengths
-  std::optional<int> degree;
-  double feature_angle = 60; ///< in degrees: fits do not reach over edges that bend by more
-};
-
 /// SOURCE of the command line, with what changes the function itself.
 struct Source_options {
   Source_kind kind = Source_kind::FUNCTION;
@@ -67,7 +53,7 @@ struct Source_options {
   std::optional<CGAL::Bbox_3> box;
   std::optional<std::array<std::size_t, 3>> resolution;
   Derivatives derivatives = Derivatives::JETS;
-  Spline_options spline;
+  Volume_options spline;
   Fit_options fit;
   bool estimates_errors = false; ///< whether the errors of affine curvatures are estimated
   bool is_registered = false;    ///< whether few data are no error, and registration needs an unsmoothed spline, too

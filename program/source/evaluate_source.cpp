@@ -72,16 +72,12 @@ Vertex_attributes estimated_attributes(const Level_set_traits_3<Traits>& level_s
 } // namespace
 
 Isosurface_3<Kernel> isosurface_of_source(const Source_function& function, double isovalue,
-                                          const std::array<std::size_t, 3>& nodes, Vertex_position vertices) {
+                                          const Marching_cubes_options& options) {
   return std::visit(
       [&]<class Traits>(const Traits& f) {
         const Level_set_traits_3<Traits> level_set(f, isovalue);
-        if constexpr (is_fit<Traits>)
-          return marching_cubes<Tag>(level_set,
-                                     parameters::vertex_position(vertices).number_of_nodes(nodes).skip_empty_space());
-        else if constexpr (std::is_same_v<Traits, Spline_function>)
-          return vectorized::marching_cubes(level_set, vertices);
-        else return vectorized::marching_cubes(level_set, nodes, vertices);
+        if constexpr (is_fit<Traits>) return marching_cubes<Tag>(level_set, options);
+        else return vectorized::marching_cubes(level_set, options);
       },
       function);
 }

@@ -9,18 +9,16 @@
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/geometry/reference_estimators.h>
-#include <equiaffine/marching_cubes/Vertex_position.h>
+#include <equiaffine/marching_cubes/Marching_cubes_options.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
-#include <array>
-#include <cstddef>
 #include <span>
 
 namespace equiaffine {
 
-/// Runs Marching Cubes on a grid of that many nodes, without empty space, or on the lattice of the samples.
+/// Runs Marching Cubes, for samples on their lattice.
 Isosurface_3<Kernel> isosurface_of_source(const Source_function& function, double isovalue,
-                                          const std::array<std::size_t, 3>& nodes, Vertex_position vertices);
+                                          const Marching_cubes_options& options);
 
 /// Attributes at a point are those of the level set through it, whatever the value of f there. `sampled_status` is
 /// empty or has one entry per point.

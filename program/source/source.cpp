@@ -9,12 +9,14 @@
 #include "system/memory_limit.h"
 #include "volume/volume_io.h"
 #include <equiaffine/base/Input_error.h>
+#include <equiaffine/delaunay/Delaunay_options.h>
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/io/read_points.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
 #include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/surface/internal/grid_of_data.h>
 #include <equiaffine/volume/signed_distance_volume.h>
 
 #include <CGAL/tags.h>
@@ -77,33 +79,12 @@ Formula_traits make_formula(const Source_options& options) {
   return {std::move(expression), options.box.value_or(CGAL::Bbox_3(-1, -1, -1, 1, 1, 1))};
 }
 
-/// The box of the points, widened on all sides by a tenth of its longest side, or by more than any coordinate if all
-/// points are equal.
-template <class Points>
-CGAL::Bbox_3 widened_box(const Points& points) {
-  CGAL::Bbox_3 box;
-  for (const Kernel::Point_3& p : points) box += p.bbox();
-  const double longest = std::max({box.x_span(), box.y_span(), box.z_span()});
-  const double farthest = std::max({std::abs(box.xmax()), std::abs(box.ymax()), std::abs(box.zmax())});
-  const double margin = longest > 0 ? longest / 10 : 1 + farthest;
-  return {box.xmin() - margin, box.ymin() - margin, box.zmin() - margin,
-          box.xmax() + margin, box.ymax() + margin, box.zmax() + margin};
-}
-
-/// The height up to which the function of a fit needs values: Marching Cubes asks for them at the corners of a cell, the
-/// Delaunay mesher at the distance of a radius, which is the default one or `radius`.
-double height_of_band(const Source_options& options, const CGAL::Bbox_3& box, double radius) {
-  const Lattice_3<Kernel> lattice(options.resolution.value_or(default_resolution(options.kind)), box);
-  const auto [x, y, z] = lattice.steps();
-  const double default_radius = std::hypot(box.x_span(), box.y_span(), box.z_span()) / 50;
-  return 2 * std::max({radius, std::sqrt((x + y + z).squared_length()), default_radius});
-}
-
 /// The fit in the box of the options, or in that of the data, and near the data.
 Fit_traits placed_fit(const Fit_traits& fit, const Source_options& options, const std::vector<Kernel::Point_3>& data,
                       double radius) {
-  const CGAL::Bbox_3 box = options.box ? *options.box : widened_box(data);
-  return fit.in_box(box).in_band(height_of_band(options, box, radius));
+  const CGAL::Bbox_3 box = options.box ? *options.box : internal::widened_box(data);
+  const auto nodes = options.resolution.value_or(default_resolution(options.kind));
+  return fit.in_box(box).in_band(internal::height_of_band(nodes, box, radius));
 }
 
 /// Fits the vertices of a mesh or points. Nothing is known of too few points, which is an error unless they are
@@ -132,7 +113,7 @@ Point_table_3<Kernel> read_data(const Source_options& options, Progress& progres
 Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size, Progress& progress) {
   progress.begin("reading the mesh");
   const CGAL::Surface_mesh<Kernel::Point_3> mesh = read_triangle_mesh(options.text);
-  const Lattice_3<Kernel> lattice(size, options.box ? *options.box : widened_box(mesh.points()));
+  const Lattice_3<Kernel> lattice(size, options.box ? *options.box : internal::widened_box(mesh.points()));
   progress.begin("measuring distances", lattice.number_of_nodes());
   try {
     double longest_step = 0;
@@ -147,7 +128,7 @@ Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size
 
 /// Throws if values are missing and the scheme is interpolation, whose recursive filter would spread them everywhere.
 void check_values(const Volume_view_3<Kernel>& volume, const Source_options& options) {
-  if (options.spline.scheme != Spline_scheme::INTERPOLATION) return;
+  if (options.spline.spline_scheme != Spline_scheme::INTERPOLATION) return;
   const auto [nx, ny, nz] = volume.lattice().size();
   std::vector<double> row(nx);
   std::ptrdiff_t missing = 0;
@@ -184,36 +165,6 @@ struct Fitted_spline {
   std::optional<Spline_traits> unsmoothed = {};
 };
 
-/// Calls f(node, sample) for the nodes of a volume.
-template <class F>
-void for_each_node(const Volume_view_3<Kernel>& volume, const F& f) {
-  const auto [nx, ny, nz] = volume.lattice().size();
-  std::vector<double> row(nx);
-  for (std::size_t k = 0; k < nz; ++k)
-    for (std::size_t j = 0; j < ny; ++j) {
-      volume.copy_line({0, j, k}, 0, row);
-      for (std::size_t i = 0; i < nx; ++i) f(std::array{i, j, k}, row[i]);
-    }
-}
-
-/// Whether a spline has on the same side of an isovalue less than nine tenths of the samples that are on the rarer side of
-/// it; judged by some of them.
-bool erases_mask(const Spline_traits& spline, const Volume_view_3<Kernel>& mask, double isovalue) {
-  constexpr std::size_t enough = 1000;
-  std::array<std::size_t, 2> sizes{};
-  for_each_node(mask, [&](const auto&, double sample) { ++sizes[sample > isovalue]; });
-  const bool is_above = sizes[1] < sizes[0];
-  const std::size_t step = 1 + sizes[is_above] / enough;
-  std::size_t seen = 0, tried = 0, kept = 0;
-  for_each_node(mask, [&](const std::array<std::size_t, 3>& node, double sample) {
-    if ((sample > isovalue) != is_above || seen++ % step != 0) return;
-    ++tried;
-    kept +=
-        (spline.value(mask.lattice().point(double(node[0]), double(node[1]), double(node[2]))) > isovalue) == is_above;
-  });
-  return 10 * kept < 9 * tried;
-}
-
 Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
   const Volume_view_3<Kernel> volume = [&]() -> Volume_view_3<Kernel> {
     if (source.kind != Source_kind::VOLUME) return sample_source(source, progress);
@@ -224,26 +175,19 @@ Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
   }();
   check_values(volume, source);
   check_steps(volume.lattice(), source);
-  const auto& [degree, scheme, scale, isovalue] = source.spline;
   progress.begin("measuring noise");
-  const Sample_noise noise = estimate_noise(volume, isovalue);
-  double smoothing = scale ? *scale : choose_smoothing(volume, noise, degree, scheme, isovalue);
+  const Smoothing_decision decision = decide_smoothing(volume, source.spline);
   progress.begin("fitting a spline");
-  const auto distinct_values = number_of_few_values(Volume_parts_3<Kernel>::of(volume));
-  const auto spline = [&] {
-    return Spline_traits(volume, Spline_parameters{.degree = degree, .scheme = scheme, .smoothing = smoothing});
-  };
-  Spline_traits function = spline();
-  while (!scale && distinct_values && smoothing > 0 && isovalue && erases_mask(function, volume, *isovalue)) {
-    smoothing = smaller_scale_to_choose(smoothing);
-    function = spline();
+  Volume_options options = source.spline;
+  options.smoothing = decision.smoothing;
+  Fitted_spline fit = {Spline_traits(volume, options),
+                       {options.spline_degree, options.spline_scheme, decision.smoothing, decision.is_chosen,
+                        decision.noise, std::ranges::min(volume.lattice().size()), decision.distinct_values}};
+  if (source.estimates_errors) fit.errors.emplace(fit.function, volume, decision.smoothing, decision.noise.deviation);
+  if (source.is_registered && decision.smoothing > 0) {
+    options.smoothing = 0;
+    fit.unsmoothed.emplace(volume, options);
   }
-  const Spline_statistics statistics = {
-      degree, scheme, smoothing, !scale, noise, std::ranges::min(volume.lattice().size()), distinct_values};
-  Fitted_spline fit = {std::move(function), statistics};
-  if (source.estimates_errors) fit.errors.emplace(fit.function, volume, smoothing, noise.deviation);
-  if (source.is_registered && smoothing > 0)
-    fit.unsmoothed.emplace(volume, Spline_parameters{.degree = degree, .scheme = scheme});
   return fit;
 }
 
@@ -265,8 +209,8 @@ Source fitted(Point_table_3<Kernel> table, const Source_options& options, double
 } // namespace
 
 std::array<std::size_t, 3> default_resolution(Source_kind kind) {
-  const std::size_t n = kind == Source_kind::DISTANCE || kind == Source_kind::FIT ? 129 : 64;
-  return {n, n, n};
+  if (kind == Source_kind::DISTANCE || kind == Source_kind::FIT) return internal::nodes_of_data;
+  return {64, 64, 64};
 }
 
 Volume_3<Kernel> sample_source(const Source_options& options, Progress& progress) {

@@ -9,7 +9,7 @@
 #include <equiaffine/attributes/Curvature_error_3.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/volume/Sample_noise.h>
-#include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Volume_options.h>
 
 #include <array>
 #include <cstddef>

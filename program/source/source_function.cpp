@@ -15,7 +15,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -37,8 +36,8 @@ Fit_traits Fit_traits::in_band(double height) const { return Fit_traits(fit_->in
 Fitted_structure_3<double> Fit_traits::structure(const Point_3& p) const { return fit_->structure(p); }
 std::optional<double> Fit_traits::scale() const { return fit_->scale(); }
 double Fit_traits::spacing(const Point_3& p) const { return fit_->spacing(p); }
-std::vector<double> Fit_traits::distances_of_sheets(double distance) const {
-  return fit_->distances_of_sheets<CGAL::Parallel_if_available_tag>(distance);
+Close_sheets Fit_traits::close_sheets(double longest_step) const {
+  return fit_->close_sheets<CGAL::Parallel_if_available_tag>(longest_step);
 }
 CGAL::Bbox_3 Fit_traits::band_box() const { return fit_->band_box(); }
 
@@ -63,25 +62,25 @@ std::vector<Point_with_normal> points_with_normals(const Annotated_mesh_3<Kernel
 
 /// Calls `fit(parameters, data...)`, where the data are points and triangles, points with normals, or points.
 template <class Fit>
-auto fit_with_parameters(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options, const Fit& fit) try {
-  const auto parameters = parameters::scale(options.scale).noise(options.noise).degree(options.degree);
-  if (!mesh.mesh.triangles.empty())
-    return fit(parameters.feature_angle(options.feature_angle), mesh.mesh.points, mesh.mesh.triangles);
+auto fit_with_parameters(const Annotated_mesh_3<Kernel>& mesh, const Fit& fit) try {
+  const auto none = parameters::default_values();
+  if (!mesh.mesh.triangles.empty()) return fit(none, mesh.mesh.points, mesh.mesh.triangles);
   const auto with_normals = points_with_normals(mesh);
-  if (with_normals.empty()) return fit(parameters, mesh.mesh.points);
-  return fit(parameters.point_map(CGAL::First_of_pair_property_map<Point_with_normal>())
+  if (with_normals.empty()) return fit(none, mesh.mesh.points);
+  return fit(parameters::point_map(CGAL::First_of_pair_property_map<Point_with_normal>())
                  .normal_map(CGAL::Second_of_pair_property_map<Point_with_normal>()),
              with_normals);
-} catch (const std::invalid_argument& error) {
-  throw Input_error(std::string("--scale: ") + error.what());
+} catch (const Input_error& error) {
+  if (error.field() != "scale") throw; // the command line has checked the other options
+  throw Input_error("--scale: " + error.sentence());
 }
 
 } // namespace
 
 std::vector<Fitted_structure_3<double>> fit_vertices(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options,
                                                      Orientation_of_level_set orientation) {
-  return fit_with_parameters(mesh, options, [&](const auto& parameters, const auto&... data) {
-    return fitted_structures<CGAL::Parallel_if_available_tag>(data..., parameters.orientation(orientation));
+  return fit_with_parameters(mesh, [&](const auto& parameters, const auto&... data) {
+    return fitted_structures<CGAL::Parallel_if_available_tag>(data..., options, orientation, parameters);
   });
 }
 
@@ -101,8 +100,8 @@ double part_with_opposed_normals(const Annotated_mesh_3<Kernel>& mesh) {
 }
 
 Fit_traits blend_vertices(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options) {
-  return fit_with_parameters(mesh, options, [](const auto& parameters, const auto&... data) {
-    return Fit_traits(Fit_traits::Fit(data..., parameters));
+  return fit_with_parameters(mesh, [&](const auto& parameters, const auto&... data) {
+    return Fit_traits(Fit_traits::Fit(data..., options, parameters));
   });
 }
 

@@ -5,6 +5,8 @@
 
 #include "request/source_options.h"
 #include "system/kernel.h"
+#include <equiaffine/fit/Close_sheets.h>
+#include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
@@ -52,7 +54,7 @@ public:
   Fitted_structure_3<double> structure(const Point_3& p) const;
   std::optional<double> scale() const;
   double spacing(const Point_3& p) const;
-  std::vector<double> distances_of_sheets(double distance) const;
+  Close_sheets close_sheets(double longest_step) const;
   CGAL::Bbox_3 band_box() const;
 
   const Fit& fit() const { return *fit_; }

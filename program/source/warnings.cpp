@@ -48,36 +48,40 @@ bool has_affine_curvatures(const Attribute_selection& attributes, const std::vec
          });
 }
 
-void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool has_affine_curvatures, bool are_data,
-                   Progress& progress) {
-  const double doubtful = has_affine_curvatures ? fit.doubtful_by_noise + fit.doubtful_by_detail : 0;
-  const double unknown = fit.without_fit + doubtful;
-  if (!(unknown > fit.known.front().back())) return;
-  const auto warn = [&](double part, const std::string& reason) {
-    if (part > 0.1 * unknown) progress.warn(std::to_string(std::lround(100 * part)) + " % of the vertices " + reason);
-  };
+namespace {
+
+/// What follows "20 % of the vertices".
+std::string sentence_of_doubt(Fit_doubt reason, const Fit_statistics& fit, const Fit_options& options, bool are_data) {
   const std::string larger_scale = options.scale ? ", or a larger --scale" : "";
-  warn(fit.without_fit,
-       are_data ? "have no fit, which needs 15 connected points or more around each; give more points" + larger_scale
-                : "have no curvatures: they are on creases, or where the data and the fit do not follow each other");
-  if (!has_affine_curvatures) return;
   const std::string without_none = options.scale == 0. ? "leave out --scale none, or " : "";
   const std::string error = "have an estimated error of the affine Gaussian curvature of more than 50 %, most of it ";
-  warn(fit.doubtful_by_noise,
-       error + (fit.scale
-                    ? "from noise and the distance of the points, too large for fourth derivatives at that scale; "
-                      "give a larger --scale or more points, or use the affine area density or the affine normal, "
-                      "which need derivatives of order 2 and 3"
-                    : "from noise, which is too large for fourth derivatives; " + without_none +
-                          "give points with less noise"));
-  if (fit.scale)
-    warn(fit.doubtful_by_detail, "have no curvature at that scale, since fewer points are within it than a polynomial "
-                                 "needs; give a larger --scale or more points");
-  else
-    warn(fit.doubtful_by_detail, error +
-                                     "since fits disagree: the surface has detail, creases or contradictions "
-                                     "between too few points; " +
-                                     without_none + "give more points");
+  if (reason == Fit_doubt::WITHOUT_FIT)
+    return are_data
+               ? "have no fit, which needs 15 connected points or more around each; give more points" + larger_scale
+               : "have no curvatures: they are on creases, or where the data and the fit do not follow each other";
+  if (reason == Fit_doubt::NOISE)
+    return error + (fit.scale
+                        ? "from noise and the distance of the points, too large for fourth derivatives at that scale; "
+                          "give a larger --scale or more points, or use the affine area density or the affine normal, "
+                          "which need derivatives of order 2 and 3"
+                        : "from noise, which is too large for fourth derivatives; " + without_none +
+                              "give points with less noise");
+  return fit.scale
+             ? "have no curvature at that scale, since fewer points are within it than a polynomial needs; give a "
+               "larger --scale or more points"
+             : error +
+                   "since fits disagree: the surface has detail, creases or contradictions between too few "
+                   "points; " +
+                   without_none + "give more points";
+}
+
+} // namespace
+
+void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool has_affine_curvatures, bool are_data,
+                   Progress& progress) {
+  for (const auto& [reason, part] : doubts_of(fit, has_affine_curvatures))
+    progress.warn(std::to_string(std::lround(100 * part)) + " % of the vertices " +
+                  sentence_of_doubt(reason, fit, options, are_data));
 }
 
 void warn_of_close_sheets(const Close_sheets& sheets, Progress& progress) {

@@ -2,10 +2,11 @@
 #ifndef EQUIAFFINE_PROGRAM_SOURCE_WARNINGS_H
 #define EQUIAFFINE_PROGRAM_SOURCE_WARNINGS_H
 
-#include "source/Fit_statistics.h"
 #include "source/source.h"
 #include "system/progress.h"
 #include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/attributes/Fit_statistics.h>
+#include <equiaffine/fit/Close_sheets.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <cstddef>
@@ -26,9 +27,7 @@ void warn_of_steps(const Spline_statistics& spline, Progress& progress);
 /// Whether columns depend on derivatives of order 3 or 4, so that what is known of affine curvatures concerns them.
 bool has_affine_curvatures(const Attribute_selection& attributes, const std::vector<std::string>& estimates);
 
-/// Warns if the affine Gaussian curvature of a fit is unknown at more than half of the vertices that are not parabolic,
-/// where it does not exist, and says why: for each reason that a tenth of these vertices have. Without affine
-/// curvatures among the attributes only vertices without a fit count. The vertices are those of the data or of a surface.
+/// Warns of the doubts_of() a fit. The vertices are those of the data or of a surface.
 void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool has_affine_curvatures, bool are_data,
                    Progress& progress);
 

@@ -3,7 +3,6 @@
 #define EQUIAFFINE_SRC_DELAUNAY_ANGLE_IMPROVEMENT_3_H
 
 #include "delaunay/Surface_criteria_3.h"
-#include <equiaffine/delaunay/Delaunay_criteria.h>
 #include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/function/capabilities.h>
 #include <equiaffine/surface/Clip_domain_3.h>

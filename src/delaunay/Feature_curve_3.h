@@ -230,7 +230,8 @@ public:
   /// `radius` bounds the size of facets.
   End_curves_3(const Any_function_3& function, const Clip_domain_3& domain, double radius)
       : function_(function), domain_(domain), radius_(radius),
-        intersect_(Domain(function, domain, radius).construct_intersection_with_zero_set_object()) {}
+        intersect_(Domain(function, {.clip = domain, .radius = radius}).construct_intersection_with_zero_set_object()) {
+  }
 
   std::vector<Feature_curve_3> find(const Mesh& mesh) {
     for (const Point_3& p : mesh.points)

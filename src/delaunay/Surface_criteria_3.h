@@ -2,8 +2,9 @@
 #ifndef EQUIAFFINE_SRC_DELAUNAY_SURFACE_CRITERIA_3_H
 #define EQUIAFFINE_SRC_DELAUNAY_SURFACE_CRITERIA_3_H
 
-#include <equiaffine/delaunay/Delaunay_criteria.h>
+#include <equiaffine/delaunay/Delaunay_options.h>
 #include <equiaffine/delaunay/Implicit_mesh_domain_3.h>
+#include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/surface/Clip_domain_3.h>

@@ -72,9 +72,9 @@ class Surface_mesher {
 public:
   Surface_mesher(const Any_function_3& function, const Meshing_request_3& request,
                  const std::vector<Feature_curve_3>& features)
-      : memory_(function), function_(memory_), domain_(function_, request.domain, request.criteria.radius),
-        criteria_(request.criteria), size_(function, request.domain, criteria_.radius, request.sizing),
-        features_(features) {}
+      : memory_(function), function_(memory_),
+        domain_(function_, {.clip = request.domain, .radius = request.criteria.radius}), criteria_(request.criteria),
+        size_(function, request.domain, criteria_.radius, request.sizing), features_(features) {}
 
   Mesh operator()() {
     CGAL::Real_timer timer;
@@ -191,7 +191,7 @@ Delaunay_surface_3<Any_function_3::Kernel> mesh_surface(const Any_function_3& fu
                                                         const Meshing_request_3& request) {
   auto features = given_features(function, request);
   Mesh mesh = mesh_to_the_ends(function, request, features);
-  return request.has_parabolic_features ? follow_parabolic_curves(mesh, function, request, features) : mesh;
+  return request.follows_parabolic_curves ? follow_parabolic_curves(mesh, function, request, features) : mesh;
 }
 
 } // namespace equiaffine::internal

@@ -6,8 +6,6 @@
 
 #include <equiaffine/engine/vectorized.h>
 
-#include <array>
-#include <cstddef>
 #include <span>
 #include <tuple>
 
@@ -20,8 +18,7 @@ struct Engine {
   using Points = std::span<const Kernel::Point_3>;
   using Statuses = std::span<const Point_status>;
 
-  /// The nodes are not used for a spline.
-  Isosurface_3<Kernel> (*marching_cubes)(const Level_set&, const std::array<std::size_t, 3>& nodes, Vertex_position);
+  Isosurface_3<Kernel> (*marching_cubes)(const Level_set&, const Marching_cubes_options&);
   Vertex_attributes (*compute_attributes)(const Level_set&, Points, const Attribute_selection&, Statuses);
   double (*max_distance_to_surface)(const Level_set&, Points, Statuses);
 };

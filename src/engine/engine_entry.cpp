@@ -14,12 +14,8 @@ namespace {
 using Tag = CGAL::Parallel_if_available_tag;
 
 template <class Function>
-Isosurface_3<Kernel> isosurface(const Level_set_traits_3<Function>& level_set, const std::array<std::size_t, 3>& nodes,
-                                Vertex_position vertices) {
-  const auto parameters = parameters::vertex_position(vertices).number_of_nodes(nodes);
-  if constexpr (LatticeImplicitFunctionTraits_3<Function>)
-    return equiaffine::marching_cubes<Tag>(level_set, parameters);
-  else return equiaffine::marching_cubes<Tag>(level_set, parameters.skip_empty_space());
+Isosurface_3<Kernel> isosurface(const Level_set_traits_3<Function>& level_set, const Marching_cubes_options& options) {
+  return equiaffine::marching_cubes<Tag>(level_set, options);
 }
 
 template <class Function>

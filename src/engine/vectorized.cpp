@@ -36,15 +36,14 @@ std::vector<Instruction_set> instruction_sets() {
   return sets;
 }
 
-Isosurface_3<Kernel> marching_cubes(const Level_set_traits_3<Formula>& level_set,
-                                    const std::array<std::size_t, 3>& number_of_nodes, Vertex_position vertices,
+Isosurface_3<Kernel> marching_cubes(const Level_set_traits_3<Formula>& level_set, const Marching_cubes_options& options,
                                     Instruction_set set) {
-  return engine<Formula>(set).marching_cubes(level_set, number_of_nodes, vertices);
+  return engine<Formula>(set).marching_cubes(level_set, options);
 }
 
-Isosurface_3<Kernel> marching_cubes(const Level_set_traits_3<Spline>& level_set, Vertex_position vertices,
+Isosurface_3<Kernel> marching_cubes(const Level_set_traits_3<Spline>& level_set, const Marching_cubes_options& options,
                                     Instruction_set set) {
-  return engine<Spline>(set).marching_cubes(level_set, {}, vertices);
+  return engine<Spline>(set).marching_cubes(level_set, options);
 }
 
 Vertex_attributes compute_attributes(const Level_set_traits_3<Formula>& level_set,

@@ -9,7 +9,7 @@
 #include "fit/fit_space.h"
 #include <equiaffine/base/internal/index_sets.h>
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/fit/Fit_options.h>
 
 #include <Eigen/Core>
 
@@ -88,8 +88,8 @@ class Fit_trials_3 {
 public:
   using Index = Data_points_3::Index;
 
-  Fit_trials_3(bool in_threads, const Data_points_3& data, const Fit_request& request)
-      : data_(data), request_(request), centers_(random_subset<Index>(data.size(), number_of_centers(data.size()), 1)),
+  Fit_trials_3(bool in_threads, const Data_points_3& data, const Fit_options& options)
+      : data_(data), options_(options), centers_(random_subset<Index>(data.size(), number_of_centers(data.size()), 1)),
         tree_(elements_at(data.points, centers_)) {
     list_candidates();
     trials_.resize(centers_.size());
@@ -144,11 +144,11 @@ private:
     for (double radius = 3; radius < 60; radius *= radius < 8 ? 1.1 : 1.2) radii_.push_back(radius);
     for (std::size_t r = 0; r < radii_.size(); ++r) {
       for (const int degree : {4, 6, 8, 10})
-        if (!request_.degree || degree == *request_.degree)
+        if (!options_.degree || degree == *options_.degree)
           candidates_.push_back({Fit_family::HEIGHT, degree, radii_[r], 0});
       if (!is_radius_of_spaces(r)) continue;
       for (const int degree : {4, 5, 6})
-        if (!request_.degree || degree == *request_.degree)
+        if (!options_.degree || degree == *options_.degree)
           for (const double weight : weights_of_normals_)
             candidates_.push_back({Fit_family::SPACE, degree, radii_[r], weight});
     }
@@ -162,7 +162,7 @@ private:
 
   /// Returns the least residual of small fits that have points to spare: what no smooth surface explains.
   double noise_at(Index center) const {
-    if (request_.noise) return *request_.noise;
+    if (options_.noise) return *options_.noise;
     double noise = std::numeric_limits<double>::infinity();
     for (const double multiple : {4., 5.5, 7.5})
       for (const auto& fit : fit_heights(data_, center, multiple * data_.spacing[center], height_degrees_))
@@ -323,7 +323,7 @@ private:
   }
 
   const Data_points_3& data_;
-  Fit_request request_;
+  Fit_options options_;
   std::vector<double> radii_;
   std::vector<Way_to_fit> candidates_;
   std::vector<Index> centers_;
@@ -336,14 +336,14 @@ private:
 class Fit_choices_3 {
 public:
   /// The surface's own curvature, as trials say. `matrix` goes from the data to their normal coordinates.
-  Fit_choices_3(const Data_points_3& data, const Eigen::Matrix3d& matrix, const Fit_request& request,
+  Fit_choices_3(const Data_points_3& data, const Eigen::Matrix3d& matrix, const Fit_options& options,
                 Fit_trials_3 trials)
-      : data_(data), matrix_(matrix), request_(request), trials_(std::move(trials)) {}
+      : data_(data), matrix_(matrix), options_(options), trials_(std::move(trials)) {}
 
   /// Curvature at a scale, which `set_scale` sets. `noise` has the deviation of every point from a smooth surface.
-  Fit_choices_3(const Data_points_3& data, const Eigen::Matrix3d& matrix, const Fit_request& request,
+  Fit_choices_3(const Data_points_3& data, const Eigen::Matrix3d& matrix, const Fit_options& options,
                 std::vector<double> noise)
-      : data_(data), matrix_(matrix), request_(request), noise_(std::move(noise)) {}
+      : data_(data), matrix_(matrix), options_(options), noise_(std::move(noise)) {}
 
   /// At a scale curvatures are by definition those of a polynomial whose degree, the least one, makes the least of
   /// noise; one of degree 8 or 10 is a height. The weight of normals is small, since noise of the points makes normals
@@ -351,7 +351,7 @@ public:
   /// was a tenth of an edge. The ball is larger for it, so that the scale means the same resolution as with that weight.
   void set_scale(double scale) {
     constexpr double weight_of_normals = 0.03;
-    const int degree = request_.degree.value_or(4);
+    const int degree = options_.degree.value_or(4);
     const bool is_space = degree <= 6;
     scale_ = scale;
     at_scale_ = Fit_choice{{is_space ? Fit_family::SPACE : Fit_family::HEIGHT, degree, radius_of_scale * scale,
@@ -369,9 +369,9 @@ public:
   /// The scale of the curvatures, a length in normal coordinates; nothing for the surface's own.
   const std::optional<double>& scale() const { return scale_; }
 
-  bool is_scale_by_data() const { return !request_.scale; }
+  bool is_scale_by_data() const { return !options_.scale; }
 
-  bool has_noise() const { return request_.noise.has_value(); }
+  bool has_noise() const { return options_.noise.has_value(); }
 
   /// The deviation of a point from a smooth surface, which the choice around it has without a scale.
   double noise(const Fit_choice& choice, Data_points_3::Index center) const {
@@ -386,7 +386,7 @@ private:
 
   const Data_points_3& data_;
   Eigen::Matrix3d matrix_;
-  Fit_request request_;
+  Fit_options options_;
   std::optional<Fit_trials_3> trials_;
   std::optional<double> scale_;
   std::optional<Fit_choice> at_scale_;

@@ -7,8 +7,10 @@
 #include "fit/Fit_choices_3.h"
 #include "fit/Fitted_numbers.h"
 #include "fit/fit_height.h"
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/index_sets.h>
 #include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/Local_structure_3.h>
@@ -28,7 +30,6 @@
 #include <numbers>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -104,18 +105,18 @@ inline void check_scale(const Normalized_data& normalized, Fit_choices_3 choices
     return stream.str();
   };
   if (scale > diagonal / 3)
-    throw std::invalid_argument(text("the scale ", scale, " is more than a third of the size ", diagonal,
-                                     " of the data; give at most ",
-                                     std::floor(diagonal / 3 / unit_of_third_digit) * unit_of_third_digit));
+    throw Input_error::about("scale", text("the scale ", scale, " is more than a third of the size ", diagonal,
+                                           " of the data; give at most ",
+                                           std::floor(diagonal / 3 / unit_of_third_digit) * unit_of_third_digit));
   constexpr std::size_t most_centers = 200;
   const auto centers = random_subset<Data_points_3::Index>(data.size(), std::min(data.size(), most_centers), 3);
   double least = scale;
   for (; !has_enough_points(data, centers, choices) && least < diagonal; least *= 1.1)
     choices.set_scale(1.1 * least * unit);
   if (least != scale && least < diagonal / 3)
-    throw std::invalid_argument(text("within the scale ", scale, " most points have fewer others than a polynomial ",
-                                     "needs; give at least ",
-                                     std::ceil(least / unit_of_third_digit) * unit_of_third_digit));
+    throw Input_error::about("scale", text("within the scale ", scale,
+                                           " most points have fewer others than a polynomial needs; give at least ",
+                                           std::ceil(least / unit_of_third_digit) * unit_of_third_digit));
 }
 
 /// Whether noise leaves K of a fit at a scale known to within a part of |K| + H^2.
@@ -181,25 +182,25 @@ inline void set_known_scale(bool in_threads, const Normalized_data& normalized, 
 
 /// Chooses how to fit. A scale of 0 asks for the surface's own curvature. Without a scale that is chosen where K is
 /// known to 50 % at half of the points, or does not exist since the surface is flat.
-inline Fit_choices_3 choose_fit(bool in_threads, const Normalized_data& normalized, const Fit_request& request) {
+inline Fit_choices_3 choose_fit(bool in_threads, const Normalized_data& normalized, const Fit_options& options) {
   const Data_points_3& data = normalized.data;
   const Eigen::Matrix3d& matrix = normalized.normalization.matrix;
-  if (!request.scale || *request.scale == 0) {
-    Fit_trials_3 trials(in_threads, data, request);
+  if (!options.scale || *options.scale == 0) {
+    Fit_trials_3 trials(in_threads, data, options);
     const auto centers = trials.centers();
-    Fit_choices_3 own(data, matrix, request, std::move(trials));
+    Fit_choices_3 own(data, matrix, options, std::move(trials));
     const auto is_settled = [](const Curvature_fit_3& fit) {
       return fit.accuracy.error[AFFINE_GAUSSIAN] <= 0.5 || is_flat(fit);
     };
-    if (request.scale || part_settled(in_threads, data, own, centers, is_settled) >= 0.5) return own;
+    if (options.scale || part_settled(in_threads, data, own, centers, is_settled) >= 0.5) return own;
   }
-  auto noise = request.noise ? std::vector<double>(data.size(), *request.noise) : point_noise(in_threads, data);
-  Fit_choices_3 at_scale(data, matrix, request, std::move(noise));
-  if (!request.scale) {
+  auto noise = options.noise ? std::vector<double>(data.size(), *options.noise) : point_noise(in_threads, data);
+  Fit_choices_3 at_scale(data, matrix, options, std::move(noise));
+  if (!options.scale) {
     set_known_scale(in_threads, normalized, at_scale);
     return at_scale;
   }
-  at_scale.set_scale(*request.scale);
+  at_scale.set_scale(*options.scale);
   check_scale(normalized, at_scale);
   return at_scale;
 }
@@ -207,9 +208,9 @@ inline Fit_choices_3 choose_fit(bool in_threads, const Normalized_data& normaliz
 /// Data points with the way to fit them. It stays where it is, since the choice refers to the data.
 class Fitted_data_3 {
 public:
-  Fitted_data_3(bool in_threads, Normalized_data data, Fit_request request)
+  Fitted_data_3(bool in_threads, Normalized_data data, Fit_options options)
       : data_(std::move(data)), greatest_coordinate_(greatest_coordinate(data_)),
-        choices_(choose_fit(in_threads, data_, in_normal_coordinates(request))), substitution_(matrix()) {}
+        choices_(choose_fit(in_threads, data_, in_normal_coordinates(options))), substitution_(matrix()) {}
 
   Fitted_data_3(const Fitted_data_3&) = delete;
   Fitted_data_3& operator=(const Fitted_data_3&) = delete;
@@ -249,10 +250,10 @@ private:
     return greatest;
   }
 
-  Fit_request in_normal_coordinates(Fit_request request) const {
-    if (request.noise) *request.noise *= data_.normalization.scale();
-    if (request.scale) *request.scale *= data_.normalization.scale();
-    return request;
+  Fit_options in_normal_coordinates(Fit_options options) const {
+    if (options.noise) *options.noise *= data_.normalization.scale();
+    if (options.scale) *options.scale *= data_.normalization.scale();
+    return options;
   }
 
   Linear_substitution_3<double>::Matrix matrix() const {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What Fitted_function_traits_3 asks of the library: the blend of fits, and the distances of sheets of the data.
+// What Fitted_function_traits_3 asks of the library: the blend of fits, and sheets of the data that are near each other.
 #include "fit/Blend_3.h"
 #include "fit/Data_points_3.h"
 #include "fit/Fitted_data_3.h"
 #include "fit/fit_input.h"
 #include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/base/internal/quantile.h>
+#include <equiaffine/fit/Close_sheets.h>
+#include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/fit/Fitted_function_traits_3.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/function/Level_set_traits_3.h>
@@ -31,8 +34,8 @@ namespace {
 /// The blend of the fits to data.
 class Blended_function_3 final : public Fitted_function_3 {
 public:
-  Blended_function_3(bool in_threads, Normalized_data data, const Fit_request& request)
-      : fit_(in_threads, std::move(data), request), blend_(in_threads, fit_.data(), fit_.choices()) {}
+  Blended_function_3(bool in_threads, Normalized_data data, const Fit_options& options)
+      : fit_(in_threads, std::move(data), options), blend_(in_threads, fit_.data(), fit_.choices()) {}
 
   double value(const Vector& p, const Band_margin& margin) const override {
     return blend_.value(normal(p), margin) / fit_.normalization().scale();
@@ -95,13 +98,10 @@ bool are_beside_crease(const Data_points_3& data, Data_points_3::Index i, Data_p
          charts.relation(charts.of(i), charts.of(j)) != Charts_3::Relation::NONE;
 }
 
-} // namespace
-
-std::shared_ptr<const Fitted_function_3> fitted_function(bool in_threads, Fit_data_3 given,
-                                                         const Fit_request& request) {
-  return std::make_shared<const Blended_function_3>(in_threads, fit_input(in_threads, std::move(given)).data, request);
-}
-
+/// The distances along the normals, in the coordinates of the data, between points and the next ones that are within a
+/// spacing of them across and on another sheet, where these are less than `greatest` and about ten spacings. Points that
+/// are not connected nearby are on different sheets, and points whose normals are opposed, as on both sides of a thin
+/// plate or tube.
 std::vector<double> distances_of_sheets(bool in_threads, const Fitted_data_3& fit, double greatest) {
   using Index = Data_points_3::Index;
   const Data_points_3& data = fit.data();
@@ -127,6 +127,25 @@ std::vector<double> distances_of_sheets(bool in_threads, const Fitted_data_3& fi
   parallel_for(in_threads, 0, data.size(), measure, 64);
   std::erase_if(distances, [&](double distance) { return !(distance < greatest); });
   return distances;
+}
+
+} // namespace
+
+std::shared_ptr<const Fitted_function_3> fitted_function(bool in_threads, Fit_data_3 given,
+                                                         const Fit_options& options) {
+  options.check();
+  return std::make_shared<const Blended_function_3>(in_threads, fit_input(in_threads, std::move(given), options).data,
+                                                    options);
+}
+
+Close_sheets close_sheets(bool in_threads, const Fitted_data_3& fit, const CGAL::Bbox_3& box, double longest_step) {
+  constexpr double steps_between_sheets = 1.5;
+  std::vector<double> distances = distances_of_sheets(in_threads, fit, longest_step);
+  if (distances.empty()) return {0, std::numeric_limits<double>::quiet_NaN(), 0};
+  const std::size_t count = distances.size();
+  const double tenth = nth_smallest(std::move(distances), count / 10);
+  const double longest = std::max({box.x_span(), box.y_span(), box.z_span()});
+  return {count, tenth, std::size_t(std::min(1e9, steps_between_sheets * longest / tenth)) + 2};
 }
 
 } // namespace equiaffine::internal

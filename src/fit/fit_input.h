@@ -4,6 +4,7 @@
 
 #include "fit/Data_points_3.h"
 #include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/fit/internal/Creased_polygons_3.h>
 #include <equiaffine/mesh/internal/indexed_polygons.h>
@@ -21,7 +22,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <optional>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -112,8 +112,7 @@ inline std::vector<Data_points_3::Edge> edges_of(const std::vector<std::vector<D
 /// in degrees: the points on them are data of each side, those of all sides but the largest one behind the vertices.
 /// Outliers have no neighbors.
 inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices,
-                                    const std::vector<std::vector<Data_points_3::Index>>& faces,
-                                    std::optional<double> feature_angle) {
+                                    const std::vector<std::vector<Data_points_3::Index>>& faces, double feature_angle) {
   std::vector<Data_points_3::Edge> edges = edges_of(faces);
   Normalized_data result;
   result.normalization = normalization_of(vertices, edges);
@@ -126,7 +125,7 @@ inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices
     if (is_outlier[i])
       without_outliers[i] = result.normalization.inverse(mean_of_neighbors(data, Data_points_3::Index(i)));
   Creased_polygons_3 mesh(without_outliers, faces);
-  if (feature_angle) data.charts = mesh.split(mesh.creases(*feature_angle));
+  data.charts = mesh.split(mesh.creases(feature_angle));
   data.points.clear();
   for (const auto& p : mesh.points()) data.points.push_back(result.normalization(p));
   data.normals.assign(data.size(), Eigen::Vector3d::Zero());
@@ -253,9 +252,9 @@ struct Fit_input_3 {
   std::vector<std::uint32_t> positions;
 };
 
-inline Fit_input_3 fit_input_of_mesh(const Fit_data_3& given) {
+inline Fit_input_3 fit_input_of_mesh(const Fit_data_3& given, double feature_angle) {
   Fit_input_3 result;
-  result.data = data_of_mesh(given.points, given.polygons, given.feature_angle);
+  result.data = data_of_mesh(given.points, given.polygons, feature_angle);
   improve_normals(result.data, given.normals);
   return result;
 }
@@ -280,10 +279,10 @@ inline std::vector<std::uint32_t> merge_equal_points(std::vector<Eigen::Vector3d
   return positions;
 }
 
-inline Fit_input_3 fit_input_of_points(bool in_threads, Fit_data_3 given) {
+inline Fit_input_3 fit_input_of_points(bool in_threads, Fit_data_3 given, Normal_orientation orientation) {
   Fit_input_3 result;
   result.positions = merge_equal_points(given.points, given.normals);
-  result.data = data_of_points(in_threads, given.points, given.normals, given.orientation);
+  result.data = data_of_points(in_threads, given.points, given.normals, orientation);
   return result;
 }
 
@@ -305,7 +304,7 @@ inline std::vector<std::uint32_t> positions_after_repair(const std::vector<Soup_
 
 /// The data points are the points without those that come again, in any order; a point where sheets meet is data of
 /// each of them, and gets what the first says, or at a crease the largest one.
-inline Fit_input_3 fit_input_of_soup(const Fit_data_3& given) {
+inline Fit_input_3 fit_input_of_soup(const Fit_data_3& given, double feature_angle) {
   std::vector<Soup_point> points;
   for (const auto& p : given.points) points.emplace_back(p[0], p[1], p[2]);
   std::vector<Soup_point> repaired = points;
@@ -317,14 +316,14 @@ inline Fit_input_3 fit_input_of_soup(const Fit_data_3& given) {
   result.positions = positions_after_repair(points, repaired);
   std::vector<Eigen::Vector3d> vertices;
   for (const auto& p : repaired) vertices.push_back(coordinates_of(p));
-  result.data = data_of_mesh(vertices, polygons, given.feature_angle);
+  result.data = data_of_mesh(vertices, polygons, feature_angle);
   return result;
 }
 
-inline Fit_input_3 fit_input(bool in_threads, Fit_data_3 given) {
-  if (given.kind == Fit_data_3::Kind::MESH) return fit_input_of_mesh(given);
-  if (given.kind == Fit_data_3::Kind::SOUP) return fit_input_of_soup(given);
-  return fit_input_of_points(in_threads, std::move(given));
+inline Fit_input_3 fit_input(bool in_threads, Fit_data_3 given, const Fit_options& options) {
+  if (given.kind == Fit_data_3::Kind::MESH) return fit_input_of_mesh(given, options.feature_angle);
+  if (given.kind == Fit_data_3::Kind::SOUP) return fit_input_of_soup(given, options.feature_angle);
+  return fit_input_of_points(in_threads, std::move(given), options.normal_orientation);
 }
 
 } // namespace equiaffine::internal

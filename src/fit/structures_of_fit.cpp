@@ -5,6 +5,7 @@
 #include "fit/fit_input.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 
@@ -73,21 +74,23 @@ std::vector<Fitted_structure_3<double>> structures_of_fit(bool in_threads, const
 } // namespace
 
 std::vector<Fitted_structure_3<double>> structures_of_data(bool in_threads, Fit_data_3 given,
-                                                           const Fit_request& request,
+                                                           const Fit_options& options,
                                                            Orientation_of_level_set orientation) {
+  options.check();
   const std::size_t count = given.points.size();
   const bool is_mesh = given.kind == Fit_data_3::Kind::MESH;
-  Fit_input_3 input = fit_input(in_threads, std::move(given));
-  const Fitted_data_3 fit(in_threads, std::move(input.data), request);
+  Fit_input_3 input = fit_input(in_threads, std::move(given), options);
+  const Fitted_data_3 fit(in_threads, std::move(input.data), options);
   auto structures = structures_of_fit(in_threads, fit, orientation);
   if (!is_mesh) return elements_at(structures, input.positions);
   structures.resize(count); // without points of creases
   return structures;
 }
 
-Fitted_structure_3<double> structure_of_vertex(Fit_data_3 given, const Fit_request& request,
+Fitted_structure_3<double> structure_of_vertex(Fit_data_3 given, const Fit_options& options,
                                                Orientation_of_level_set orientation, std::size_t i) {
-  const Fitted_data_3 fit(false, fit_input(false, std::move(given)).data, request);
+  options.check();
+  const Fitted_data_3 fit(false, fit_input(false, std::move(given), options).data, options);
   return structure_at_point(fit, Data_points_3::Index(i), orientation);
 }
 

@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_AFFINE_MAP_3_H
 #define EQUIAFFINE_SRC_REGISTRATION_AFFINE_MAP_3_H
 
-#include <equiaffine/registration/Map_kind.h>
+#include <equiaffine/registration/Registration_options.h>
 #include <equiaffine/registration/slippage_of_mesh.h>
 
 #include <Eigen/Cholesky>

@@ -25,6 +25,12 @@
 
 namespace equiaffine::internal {
 
+/// How far symmetries may move points from a surface without a given tolerance, parts of its size: splines and fits know
+/// the surface to within their errors only.
+struct Default_tolerances {
+  static constexpr double function = 1e-8, spline = 1e-5, fit = 1e-3;
+};
+
 /// The search for the finite group of maps that move a surface onto itself. A few generic points are matched with all
 /// points of the surface that may be their images; products of the symmetries that are found complete the group.
 class Symmetry_search {
@@ -276,21 +282,20 @@ std::optional<std::vector<Checked_symmetry>> group_that_holds(bool in_threads, c
 inline Affine_symmetries_3<Kernel_of_searches> symmetries_by_exact_frames(bool in_threads,
                                                                           const Framed_surface_3& surface,
                                                                           const Symmetry_check& check,
-                                                                          const Map_request& request) {
+                                                                          const Symmetry_options& options) {
   constexpr std::size_t fewest_points = 4, fewest_inner_points = 2;
   constexpr double least_inside = 0.05; // of the images of points, in the box
-  const double tolerance = request.tolerance.value_or(default_tolerance);
-  Symmetry_search search(in_threads, surface, request.kind, std::max(tolerance, greatest_tolerance_of_frames));
+  const double tolerance = options.tolerance.value_or(Default_tolerances::function);
+  Symmetry_search search(in_threads, surface, options.kind, std::max(tolerance, greatest_tolerance_of_frames));
   std::vector<Affine_map_3> maps = search.run();
-  if (!request.allows_reflections)
-    std::erase_if(maps, [](const Affine_map_3& map) { return map.matrix.determinant() < 0; });
+  if (!options.reflections) std::erase_if(maps, [](const Affine_map_3& map) { return map.matrix.determinant() < 0; });
   const auto is_exact = [](const Checked_map& map) { return map.is_exact && map.inside > least_inside; };
   const auto is_near = [&](const Checked_map& map) {
     return map.rms <= tolerance * check.size() && map.inside > least_inside;
   };
 
   Affine_symmetries_3<Kernel_of_searches> result;
-  result.kind = request.kind;
+  result.kind = options.kind;
   result.spacing = check.spacing();
   result.maps = {symmetry({}, 0, 0)};
   if (check.is_cut()) result.order_in_box = 1;
@@ -316,7 +321,7 @@ inline Affine_symmetries_3<Kernel_of_searches> symmetries_by_exact_frames(bool i
   result.verdict = group->size() > 1       ? Symmetry_verdict::EXACT
                    : result.levels.empty() ? Symmetry_verdict::NONE
                                            : Symmetry_verdict::APPROXIMATE;
-  if (!result.levels.empty()) result.maps = (request.tolerance ? result.levels.back() : result.levels.front()).maps;
+  if (!result.levels.empty()) result.maps = (options.tolerance ? result.levels.back() : result.levels.front()).maps;
   return result;
 }
 
@@ -334,13 +339,13 @@ inline Affine_symmetries_3<Kernel_of_searches> symmetries_by_exact_frames(bool i
                                                                           const Framed_function_3& function,
                                                                           const std::vector<Eigen::Vector3d>& points,
                                                                           const Symmetry_check& check,
-                                                                          const Map_request& request) {
+                                                                          const Symmetry_options& options) {
   constexpr std::array<std::size_t, 2> counts = {most_framed_points, 5 * most_framed_points};
   Affine_symmetries_3<Kernel_of_searches> result;
   for (const std::size_t count : counts) {
     const auto surface =
-        framed_surface(in_threads, function, function, filled_up(points, check.points(), count), request.kind, count);
-    result = symmetries_by_exact_frames(in_threads, surface, check, request);
+        framed_surface(in_threads, function, function, filled_up(points, check.points(), count), options.kind, count);
+    result = symmetries_by_exact_frames(in_threads, surface, check, options);
     if (result.is_decided) break;
   }
   return result;

@@ -2,11 +2,12 @@
 #ifndef EQUIAFFINE_SRC_REGISTRATION_CANDIDATE_PAIRS_H
 #define EQUIAFFINE_SRC_REGISTRATION_CANDIDATE_PAIRS_H
 
+#include "registration/Frame_thresholds.h"
 #include "registration/Framed_surface_3.h"
 #include <equiaffine/base/internal/index_sets.h>
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/internal/quantile.h>
-#include <equiaffine/registration/register_surfaces.h>
+#include <equiaffine/registration/Registration_options.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>

@@ -74,7 +74,7 @@ inline double tolerance_of_number(double greatest, int i) { return greatest * st
 /// How a map is judged.
 struct Judgement {
   double greatest_tolerance; ///< in the unit of distances: points that are nearer may lie on the other surface
-  double least_overlap;      ///< the part of the probes of one surface, at least, that is to lie on the other
+  double min_overlap;        ///< the part of the probes of one surface, at least, that is to lie on the other
   int parameters = 0;        ///< of the map, which can bring as many points to the other surface
   double tests = 1;          ///< the number of maps that were tried
   std::size_t probes = most_probes;
@@ -92,7 +92,7 @@ inline void judge_one_way(const Sorted_distances& sorted, double chance, const J
   if (all < double(fewest_probes)) return;
   for (int i = 0; i < most_tolerances; ++i) {
     const double t = tolerance_of_number(how.greatest_tolerance, i), hits = sorted.within(t) - how.parameters;
-    if (hits < double(fewest_probes) || hits + how.parameters < how.least_overlap * double(sorted.probes)) continue;
+    if (hits < double(fewest_probes) || hits + how.parameters < how.min_overlap * double(sorted.probes)) continue;
     const double part_nearer = std::pow(10, how.are_exact && t > rounding ? -0.1 : -0.4);
     contact = std::min(contact, log10_tail(hits, sorted.within(10 * t) - how.parameters, part_nearer));
     const double by_volume = log10_tail(hits, all, std::min(0.5, chance * t));

@@ -110,15 +110,15 @@ inline std::optional<Normal_quadric_3> normal_form_of(const Framed_surface_3& su
 
 /// Returns a map of the kind if both surfaces are quadrics with the same signs in their normal forms.
 inline std::optional<Affine_map_3> map_of_quadrics(const Framed_surface_3& source, const Framed_surface_3& target,
-                                                   const Registration_request& request) {
+                                                   const Registration_options& options) {
   const auto from = normal_form_of(source), to = normal_form_of(target);
   if (!from || !to || from->positive != to->positive || from->negative != to->negative) return std::nullopt;
   Affine_map_3 mirror;
   const bool has_to_turn = from->map.matrix.determinant() * to->map.matrix.determinant() < 0;
-  if (has_to_turn && !request.allows_reflections) mirror.matrix(0, 0) = -1;
+  if (has_to_turn && !options.reflections) mirror.matrix(0, 0) = -1;
   Affine_map_3 map = to->map.inverse() * mirror * from->map;
   const Eigen::Vector3d image = map(source.probes.front());
-  map.matrix = nearest_of_kind(map.matrix, request.kind);
+  map.matrix = nearest_of_kind(map.matrix, options.kind);
   map.translation = image - map.matrix * source.probes.front();
   return map;
 }

@@ -228,8 +228,8 @@ inline double tolerance_of_facets(double facet_error, double usual) {
 constexpr double usual_contact = 1e-3, greatest_contact = 1e-2;
 
 /// The distance up to which points of two pieces are in contact.
-inline double tolerance_of_contact(double facet_error, const Registration_request& request) {
-  if (request.tolerance) return *request.tolerance;
+inline double tolerance_of_contact(double facet_error, const Registration_options& options) {
+  if (options.tolerance) return *options.tolerance;
   return tolerance_of_facets(facet_error, std::clamp(4 * facet_error, usual_contact, greatest_contact));
 }
 

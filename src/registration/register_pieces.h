@@ -58,9 +58,9 @@ struct Scored_map {
 class Two_point_frames {
 public:
   Two_point_frames(bool in_threads, const Piece_of_surface_3& source, const Piece_of_surface_3& target,
-                   const Registration_request& request)
+                   const Registration_options& options)
       : in_threads_(in_threads), source_(source), target_(target),
-        request_(request), nearest_{Nearest_of_cells::of(in_threads, source),
+        options_(options), nearest_{Nearest_of_cells::of(in_threads, source),
                                     Nearest_of_cells::of(in_threads, target)} {}
 
   /// Returns maps that are different, the best first.
@@ -84,7 +84,7 @@ private:
                                probes = 80;
   static constexpr std::size_t most_maps = 160;
 
-  bool keeps_size() const { return request_.kind == Map_kind::RIGID; }
+  bool keeps_size() const { return options_.kind == Map_kind::RIGID; }
 
   /// Pairs that are far apart and whose normals and way are far from a plane.
   std::vector<Pair_of_samples> chosen_bases() const {
@@ -143,7 +143,7 @@ private:
         if (std::abs(m.dot(way) / distance - first) > slack || std::abs(k.dot(way) / distance - second) > slack)
           continue;
         const bool is_mirrored = m.cross(k).dot(way) * turn < 0;
-        if (request_.allows_reflections || !is_mirrored) result.push_back({i, j});
+        if (options_.reflections || !is_mirrored) result.push_back({i, j});
       }
     return result;
   }
@@ -196,7 +196,7 @@ private:
 
   bool in_threads_;
   const Piece_of_surface_3 &source_, &target_;
-  Registration_request request_;
+  Registration_options options_;
   std::array<Nearest_of_cells, 2> nearest_;
   std::size_t hypotheses_ = 0;
 };
@@ -206,12 +206,12 @@ class Registration_of_pieces {
 public:
   /// Points nearer than `tolerance` are in contact.
   Registration_of_pieces(bool in_threads, const Piece_of_surface_3& source, const Piece_of_surface_3& target,
-                         const Registration_request& request, double tolerance)
-      : in_threads_(in_threads), source_(source), target_(target), request_(request), tolerance_(tolerance),
+                         const Registration_options& options, double tolerance)
+      : in_threads_(in_threads), source_(source), target_(target), options_(options), tolerance_(tolerance),
         tolerance_of_search_(std::max(tolerance, usual_contact)) {}
 
   Shape_matches run() {
-    Two_point_frames frames(in_threads_, source_, target_, request_);
+    Two_point_frames frames(in_threads_, source_, target_, options_);
     std::vector<Candidate> candidates = candidates_of(frames.run());
     Shape_matches result;
     result.hypotheses = hypotheses_ = frames.hypotheses();
@@ -230,7 +230,7 @@ public:
 
 private:
   static constexpr std::size_t few_samples = 120, more_samples = 400, most_judged = 64;
-  static constexpr double accepted_log10 = -6, most_contradictions = 0.02, least_part = 0.05;
+  static constexpr double most_contradictions = 0.02, least_part = 0.05;
   static constexpr double least_rigidity = 20; ///< beside the tolerance
 
   struct Candidate {
@@ -287,12 +287,12 @@ private:
       const double median = median_distance(moved, fixed, 1) / unit(map);
       limit = std::clamp(6 * deviations_per_median * median, how.last_limit,
                          std::max(how.last_limit, how.contraction * limit));
-      Refinement_equations equations(infinitesimal_maps(request_.kind), map(Eigen::Vector3d::Zero()), unit(map));
+      Refinement_equations equations(infinitesimal_maps(options_.kind), map(Eigen::Vector3d::Zero()), unit(map));
       equations.add(moved, 1, 1);
       equations.add(fixed, 1, -1);
       const Affine_map_3 change = equations.map_of(equations.solution(rounding));
       map = change * map;
-      map.matrix = nearest_of_kind(map.matrix, request_.kind);
+      map.matrix = nearest_of_kind(map.matrix, options_.kind);
       const double ratio = map.matrix.determinant() / first_determinant;
       if (!map.matrix.allFinite() || !map.translation.allFinite() || !(ratio > 0.3 && ratio < 3)) return false;
       if ((change.matrix - Eigen::Matrix3d::Identity()).norm() < 1e-9) break;
@@ -313,8 +313,8 @@ private:
     const double areas[] = {source_.samples().area.measure * scale * scale, target_.samples().area.measure};
     const double radii[] = {source_.samples().radius() * scale, target_.samples().radius()};
     const std::array chances = {chance_of_nearness(areas[0], radii[0]), chance_of_nearness(areas[1], radii[1])};
-    const Judgement how{tolerance * unit(map), 0, degrees_of_freedom(request_.kind), double(hypotheses_)};
-    return contact_evidence(samples_of(map, count, tolerance), request_.kind, {areas[0], areas[1]}, chances, how);
+    const Judgement how{tolerance * unit(map), 0, degrees_of_freedom(options_.kind), double(hypotheses_)};
+    return contact_evidence(samples_of(map, count, tolerance), options_.kind, {areas[0], areas[1]}, chances, how);
   }
 
   static void sort(std::vector<Candidate>& candidates) {
@@ -353,7 +353,7 @@ private:
   }
 
   std::string reason_against(const Contact_evidence& e) const {
-    if (std::max(e.inliers[0], e.inliers[1]) < std::max(least_part, request_.least_overlap))
+    if (std::max(e.inliers[0], e.inliers[1]) < std::max(least_part, options_.min_overlap))
       return "the parts in contact are too small";
     const double contradictions = std::max(e.contradictions[0], e.contradictions[1]);
     if (contradictions > most_contradictions)
@@ -372,7 +372,7 @@ private:
 
   bool in_threads_;
   const Piece_of_surface_3 &source_, &target_;
-  Registration_request request_;
+  Registration_options options_;
   double tolerance_, tolerance_of_search_;
   std::size_t hypotheses_ = 0;
 };
@@ -392,18 +392,18 @@ inline std::string reason_against_pieces(const Moments_3& source, const Moments_
 /// planes and cylinders will do. Accepts those that the area in contact proves, and that no other points contradict. The
 /// source may be inside out, as meshes are that somebody mirrored. Facets of solids stand for nothing smooth.
 inline Shape_matches register_pieces(bool in_threads, const Triangles_3& source, const Triangles_3& target,
-                                     const Registration_request& request, bool are_solids = false) {
+                                     const Registration_options& options, bool are_solids = false) {
   const Moments_3 areas[] = {area_moments(source), area_moments(target)};
   Shape_matches result;
-  result.reason = reason_against_pieces(areas[0], areas[1], request.kind);
+  result.reason = reason_against_pieces(areas[0], areas[1], options.kind);
   if (!result.reason.empty()) return result;
   const Affine_map_3 to_target = centering_map(areas[1]);
   Affine_map_3 to_source = centering_map(areas[0]);
-  if (request.kind == Map_kind::RIGID) to_source = {to_target.matrix, -(to_target.matrix * areas[0].centroid)};
+  if (options.kind == Map_kind::RIGID) to_source = {to_target.matrix, -(to_target.matrix * areas[0].centroid)};
   const Triangles_3 a = transformed(source, to_source), b = transformed(target, to_target);
   const auto edges_a = sorted_edges(a), edges_b = sorted_edges(b);
   const double error_of_facets = are_solids ? 0 : std::max(facet_error(a, edges_a).rms, facet_error(b, edges_b).rms);
-  const double tolerance = tolerance_of_contact(error_of_facets, request);
+  const double tolerance = tolerance_of_contact(error_of_facets, options);
   const auto piece = [=](const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
     return Piece_of_surface_3(mesh, edges, samples_of_piece, 2 * tolerance);
   };
@@ -413,7 +413,7 @@ inline Shape_matches register_pieces(bool in_threads, const Triangles_3& source,
     return result;
   }
   const auto search = [&](const Piece_of_surface_3& from) {
-    return Registration_of_pieces(in_threads, from, q, request, tolerance).run();
+    return Registration_of_pieces(in_threads, from, q, options, tolerance).run();
   };
   const bool is_side_known = p.is_closed() && q.is_closed(), is_turned = is_side_known && p.volume() * q.volume() < 0;
   if (!is_turned) result = search(p);

@@ -30,12 +30,12 @@ struct Tolerances_of_wholes {
 
 /// Triangles are off a smooth surface, and thin surfaces are nearer to others. Two samplings of one object, such as a
 /// scan and its coarse version, are alike without being equal; solids with planes only have no such versions.
-inline Tolerances_of_wholes tolerances_of_wholes(const Centered_pair& surfaces, const Registration_request& request) {
+inline Tolerances_of_wholes tolerances_of_wholes(const Centered_pair& surfaces, const Registration_options& options) {
   constexpr double least = 3e-3, greatest = 0.01, alike = 0.015;
   const double facet_error = surfaces.source.samples.facet_error + surfaces.target.samples.facet_error;
   const double thickness = std::min(surfaces.source.thickness(), surfaces.target.thickness());
   const double usual = std::clamp(1.2 * facet_error, least, greatest) * thickness;
-  if (request.tolerance) return {*request.tolerance, 0, std::max(*request.tolerance, least * thickness)};
+  if (options.tolerance) return {*options.tolerance, 0, std::max(*options.tolerance, least * thickness)};
   const double equal = tolerance_of_facets(facet_error, usual);
   return {equal, equal < usual ? 0 : alike * thickness, usual};
 }
@@ -80,7 +80,7 @@ inline bool is_one_alone(const std::vector<Centered_map>& maps, double rms) {
 /// of the solid inside, so that all rotations and reflections about the centroid are tried, and no curvature is needed.
 /// Surfaces whose extents differ by a tenth of the size are not equal, and no rotation is tried.
 inline Shape_matches register_wholes(bool in_threads, const Centered_surface_3& source,
-                                     const Centered_surface_3& target, const Registration_request& request) {
+                                     const Centered_surface_3& target, const Registration_options& options) {
   constexpr double gate = 0.06, least_difference = 0.1, most_contradictions = 0.1;
   constexpr std::size_t probes = 6000;
   Shape_matches result;
@@ -88,22 +88,22 @@ inline Shape_matches register_wholes(bool in_threads, const Centered_surface_3& 
   if ((source.extents() - target.extents()).cwiseAbs().maxCoeff() > least_difference) return result;
   const Centered_pair surfaces(source, target);
   result.size = target.own.size;
-  const Tolerances_of_wholes tolerances = tolerances_of_wholes(surfaces, request);
+  const Tolerances_of_wholes tolerances = tolerances_of_wholes(surfaces, options);
   double scale = 1;
-  if (keeps_volume(request.kind)) {
+  if (keeps_volume(options.kind)) {
     scale = std::cbrt(std::abs(target.map.matrix.determinant() / source.map.matrix.determinant()));
     if (std::abs(std::log(scale)) > least_difference) return result;
   }
-  const auto slipping = slipping_rotations(in_threads, source, request.kind);
-  result.slippage = continuous_symmetries(source, slipping, tolerances_of_wholes(Centered_pair(source), request).tried);
+  const auto slipping = slipping_rotations(in_threads, source, options.kind);
+  result.slippage = continuous_symmetries(source, slipping, tolerances_of_wholes(Centered_pair(source), options).tried);
   const auto rotations = rotations_to_refine(in_threads, surfaces, 2 * std::max(tolerances.tried, tolerances.alone),
-                                             request.allows_reflections, result.slippage.dimension());
+                                             options.reflections, result.slippage.dimension());
   result.hypotheses = rotations.size();
-  const Judgement how = {10 * tolerances.tried, 0, degrees_of_freedom(request.kind),
+  const Judgement how = {10 * tolerances.tried, 0, degrees_of_freedom(options.kind),
                          double(std::max<std::size_t>(result.hypotheses, 1)), probes};
   const double touching =
-      tolerance_of_contact(std::max(source.samples.facet_error, target.samples.facet_error), request);
-  const auto maps = refined_candidates(in_threads, surfaces, rotations, scale, request.kind, gate).maps;
+      tolerance_of_contact(std::max(source.samples.facet_error, target.samples.facet_error), options);
+  const auto maps = refined_candidates(in_threads, surfaces, rotations, scale, options.kind, gate).maps;
   const auto match = [&](const Centered_map& map) {
     return match_of(surfaces, map.map, std::max(touching, 3 * map.rms), how);
   };
@@ -132,10 +132,10 @@ inline std::size_t equally_good(const Shape_matches& found) {
 }
 
 /// Converts what was found to the types of CGAL. One map stands for all of a continuous family.
-inline Surface_registration_3<Kernel_of_searches> to_CGAL(Shape_matches found, const Registration_request& request) {
+inline Surface_registration_3<Kernel_of_searches> to_CGAL(Shape_matches found, const Registration_options& options) {
   Surface_registration_3<Kernel_of_searches> result;
   const bool slips = found.slippage.dimension() > 0;
-  for (std::size_t n = 0; n < std::min(slips ? 1 : request.number_of_maps, found.maps.size()); ++n) {
+  for (std::size_t n = 0; n < std::min(slips ? 1 : options.number_of_maps, found.maps.size()); ++n) {
     const Shape_match& m = found.maps[n];
     result.maps.push_back({m.map.to_CGAL<Kernel_of_searches::Aff_transformation_3>(),
                            m.log10_false_alarms,
@@ -159,8 +159,8 @@ inline Surface_registration_3<Kernel_of_searches> to_CGAL(Shape_matches found, c
 inline Surface_registration_3<Kernel_of_searches> registration_of_wholes(bool in_threads,
                                                                          const Centered_surface_3& source,
                                                                          const Centered_surface_3& target,
-                                                                         const Registration_request& request) {
-  return to_CGAL(register_wholes(in_threads, source, target, request), request);
+                                                                         const Registration_options& options) {
+  return to_CGAL(register_wholes(in_threads, source, target, options), options);
 }
 
 } // namespace equiaffine::internal

@@ -11,7 +11,9 @@
 #include "registration/slippage.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/function/Any_function_3.h>
-#include <equiaffine/registration/Map_kind.h>
+#include <equiaffine/registration/Registration_options.h>
+#include <equiaffine/registration/internal/Surface_to_register.h>
+#include <equiaffine/registration/internal/searches.h>
 #include <equiaffine/registration/is_affinely_equivalent.h>
 #include <equiaffine/registration/register_surfaces.h>
 
@@ -31,29 +33,30 @@ constexpr std::size_t fewest_points_of_whole = 16;
 
 } // namespace
 
-Registration_of_functions_3 registration_of_functions(bool in_threads, const Refined_surface_3& source,
-                                                      const Refined_surface_3& target,
-                                                      const Registration_request& request) {
-  check_argument(!source.points.empty(), "a surface to be registered has no points: give points of the source");
-  check_argument(!target.points.empty(), "a surface to register with has no points: give points of the target");
+Registration_of_functions_3 registration_of_functions(bool in_threads, const Surface_to_register& source,
+                                                      const Surface_to_register& target,
+                                                      const Registration_options& options) {
+  const auto points = vectors_of(source.mesh.points), target_points = vectors_of(target.mesh.points);
+  check_argument(!points.empty(), "a surface to be registered has no points: give points of the source");
+  check_argument(!target_points.empty(), "a surface to register with has no points: give points of the target");
   const Framed_function_3 function(source.function), target_function(target.function);
-  const Framed_function_3 refinement(source.refined), target_refinement(target.refined);
-  const auto framed = framed_surface(in_threads, function, refinement, source.points, request.kind);
+  const Framed_function_3 refinement(source.refined()), target_refinement(target.refined());
+  const auto framed = framed_surface(in_threads, function, refinement, points, options.kind);
   const auto framed_target =
-      framed_surface(in_threads, target_function, target_refinement, target.points, request.kind);
-  Affine_slippage_3 slippage = slippage_of_source(framed, request.kind);
+      framed_surface(in_threads, target_function, target_refinement, target_points, options.kind);
+  Affine_slippage_3 slippage = slippage_of_source(framed, options.kind);
   if (slippage.dimension() > 0 && has_exact_frames(framed)) {
     constexpr double longest = 4; // beside the tolerance, which is one of velocities
-    const Symmetry_check check = Symmetry_check::of(in_threads, source.refined);
+    const Symmetry_check check = Symmetry_check::of(in_threads, source.refined());
     const Checked_map moved = check.check_flows(in_threads, slippage.generators);
     if (moved.rms > longest * slippage_tolerance * check.size()) slippage = {};
   }
-  auto registration = registration_of_framed(in_threads, framed, framed_target, request, std::move(slippage));
+  auto registration = registration_of_framed(in_threads, framed, framed_target, options, std::move(slippage));
   const bool has_points = std::min(framed.probes.size(), framed_target.probes.size()) >= fewest_points_of_whole;
   const bool is_exact = has_exact_frames(framed) && has_exact_frames(framed_target);
   if (registration.result.found() || !has_points || !is_exact) return registration;
-  auto wholes = registration_of_wholes(in_threads, centered_surface(in_threads, source.refined, request.kind),
-                                       centered_surface(in_threads, target.refined, request.kind), request);
+  auto wholes = registration_of_wholes(in_threads, centered_surface(in_threads, source.refined(), options.kind),
+                                       centered_surface(in_threads, target.refined(), options.kind), options);
   registration.is_equivalence = wholes.found();
   const std::size_t hypotheses = registration.result.hypotheses + wholes.hypotheses;
   if (wholes.found()) registration.result = std::move(wholes);
@@ -63,21 +66,21 @@ Registration_of_functions_3 registration_of_functions(bool in_threads, const Ref
 
 Surface_registration_3<Kernel_of_searches> registration_of_triangles(bool in_threads, const Triangles_3& source,
                                                                      const Triangles_3& target,
-                                                                     const Registration_request& request) {
+                                                                     const Registration_options& options) {
   check_argument(!source.triangles.empty(), "a mesh to be registered has no faces: give faces of the source");
   check_argument(!target.triangles.empty(), "a mesh to register with has no faces: give faces of the target");
-  Centered_surface_3 from = centered_surface(source, request.kind), to = centered_surface(target, request.kind);
+  Centered_surface_3 from = centered_surface(source, options.kind), to = centered_surface(target, options.kind);
   // Facets of solids with corners are their faces, and explain no distance.
   const bool are_solids = has_group_of_corners(in_threads, source, coordinate_rounding(source.points)) &&
                           has_group_of_corners(in_threads, target, coordinate_rounding(target.points));
   if (are_solids) from.samples.facet_error = to.samples.facet_error = 0;
-  Shape_matches wholes = register_wholes(in_threads, from, to, request);
-  wholes.slippage = slippage_of_triangles(in_threads, source, request.kind);
-  if (!wholes.maps.empty()) return to_CGAL(std::move(wholes), request);
-  Shape_matches pieces = register_pieces(in_threads, source, target, request, are_solids);
+  Shape_matches wholes = register_wholes(in_threads, from, to, options);
+  wholes.slippage = slippage_of_triangles(in_threads, source, options.kind);
+  if (!wholes.maps.empty()) return to_CGAL(std::move(wholes), options);
+  Shape_matches pieces = register_pieces(in_threads, source, target, options, are_solids);
   pieces.hypotheses += wholes.hypotheses;
   pieces.slippage = std::move(wholes.slippage);
-  return to_CGAL(std::move(pieces), request);
+  return to_CGAL(std::move(pieces), options);
 }
 
 bool differ_as_wholes(bool in_threads, const Any_function_3& source, const Any_function_3& target, Map_kind kind,

@@ -3,6 +3,7 @@
 #define EQUIAFFINE_SRC_REGISTRATION_REGISTRATION_OF_FRAMED_H
 
 #include "registration/Centered_surface_3.h"
+#include "registration/Frame_thresholds.h"
 #include "registration/Framed_surface_3.h"
 #include "registration/candidate_pairs.h"
 #include "registration/map_evidence.h"
@@ -43,14 +44,14 @@ struct Judged_map {
 class Registration_search {
 public:
   Registration_search(bool in_threads, const Framed_surface_3& source, const Framed_surface_3& target,
-                      const Registration_request& request)
-      : in_threads_(in_threads), source_(source), target_(target), request_(request), thresholds_(request.thresholds),
-        tolerance_(request.tolerance.value_or(std::clamp(
+                      const Registration_options& options, const Frame_thresholds& thresholds)
+      : in_threads_(in_threads), source_(source), target_(target), options_(options), thresholds_(thresholds),
+        tolerance_(options.tolerance.value_or(std::clamp(
             8 * std::max(source.noise, target.noise), thresholds_.exact_tolerance, thresholds_.greatest_tolerance))) {}
 
   /// Tries pairs that are alike, then, as long as no map is accepted, others that may be alike where structure is wrong.
   void run() {
-    const auto points = points_to_try(in_threads_, source_, request_.kind, thresholds_.most_points_to_try, thresholds_);
+    const auto points = points_to_try(in_threads_, source_, options_.kind, thresholds_.most_points_to_try, thresholds_);
     try_all(points, thresholds_.usual);
     if (first_accepted_ == 0) try_all(points, thresholds_.wrong_structure);
   }
@@ -61,12 +62,12 @@ public:
     const Map_evidence first = rough_evidence(map, thresholds_.greatest_first_tolerance);
     if (first.log10_by_volume > thresholds_.first_log10) return;
     const double tolerance = std::clamp(30 * first.tolerance, 1e-3, 0.05);
-    const auto improved = refined_map(map, {request_.kind, tolerance, 8, thresholds_.probes_at_first});
+    const auto improved = refined_map(map, {options_.kind, tolerance, 8, thresholds_.probes_at_first});
     if (!improved) return;
     const Map_evidence second =
         rough_evidence(*improved, std::min(thresholds_.greatest_first_tolerance, 10 * tolerance_));
     if (second.log10_by_volume > thresholds_.second_log10) return;
-    const auto refined = refined_map(*improved, {request_.kind, std::clamp(30 * second.tolerance, 1e-3, 0.05)});
+    const auto refined = refined_map(*improved, {options_.kind, std::clamp(30 * second.tolerance, 1e-3, 0.05)});
     if (refined && !is_known(*refined, 1e-4)) keep({*refined, evidence(*refined), pair});
   }
 
@@ -79,13 +80,13 @@ public:
                                      [&](const Framed_point_3& p) { return p.point == point.point; });
     const auto index = std::size_t(source - source_.points.begin());
     const Candidate_limits limits = {3000, 3000, thresholds_.usual.greatest_mismatch};
-    auto pairs = pairs_of_point(source_, target_, index, request_.kind, limits, thresholds_);
+    auto pairs = pairs_of_point(source_, target_, index, options_.kind, limits, thresholds_);
     pairs = without_near(pairs, most_images, [&](const Candidate_pair& a, const Candidate_pair& b) {
       return (target_.points[a.target].point - target_.points[b.target].point).norm() < 1.5 * target_.spacing;
     });
     std::vector<Counterpart> found(pairs.size());
     parallel_for(in_threads_, 0, pairs.size(), [&](std::size_t n) {
-      found[n] = find_counterpart(source_, target_, pairs[n], request_.kind, thresholds_);
+      found[n] = find_counterpart(source_, target_, pairs[n], options_.kind, thresholds_);
     });
     const std::size_t hypotheses = hypotheses_;
     for (const Counterpart& c : found)
@@ -136,7 +137,7 @@ private:
 
   bool is_done() const {
     if (hypotheses_ >= thresholds_.most_hypotheses) return true;
-    if (first_accepted_ == 0 || request_.number_of_maps > 1) return false;
+    if (first_accepted_ == 0 || options_.number_of_maps > 1) return false;
     const Map_evidence& best = maps_.front().evidence;
     const bool has_noise = tolerance_ > thresholds_.exact_tolerance,
                has_all = std::max(best.inliers[0], best.inliers[1]) > 0.8;
@@ -153,13 +154,13 @@ private:
   }
 
   void try_points(std::span<const std::size_t> points, const Candidate_limits& limits) {
-    auto pairs = candidate_pairs(in_threads_, source_, target_, points, request_.kind, limits, thresholds_);
+    auto pairs = candidate_pairs(in_threads_, source_, target_, points, options_.kind, limits, thresholds_);
     std::erase_if(pairs, [&](const Candidate_pair& p) { return !tried_.insert({p.source, p.target}).second; });
     for (std::size_t begin = 0; begin < pairs.size() && !is_done(); begin += thresholds_.pairs_at_once) {
       const std::size_t count = std::min(thresholds_.pairs_at_once, pairs.size() - begin);
       std::vector<Counterpart> found(count);
       parallel_for(in_threads_, 0, count, [&](std::size_t n) {
-        found[n] = find_counterpart(source_, target_, pairs[begin + n], request_.kind, thresholds_);
+        found[n] = find_counterpart(source_, target_, pairs[begin + n], options_.kind, thresholds_);
       });
       std::stable_sort(found.begin(), found.end(),
                        [](const Counterpart& a, const Counterpart& b) { return a.cost < b.cost; });
@@ -170,10 +171,10 @@ private:
 
   void try_counterpart(const Counterpart& pair) {
     const Framed_point_3& p = source_.points[pair.source];
-    const Affine_map_3 map = map_between(p, pair.target, request_.kind);
+    const Affine_map_3 map = map_between(p, pair.target, options_.kind);
     const double determinant = map.matrix.determinant();
     if (!map.matrix.allFinite() || !(condition(map.matrix) < greatest_condition)) return;
-    if (determinant < 0 && !request_.allows_reflections) return;
+    if (determinant < 0 && !options_.reflections) return;
     if (is_known(map, same)) return;
     try_map(map, Pair_of_points{p, pair.target});
   }
@@ -183,12 +184,12 @@ private:
   }
 
   Map_evidence rough_evidence(const Affine_map_3& map, double tolerance) const {
-    const Judgement how{tolerance, request_.least_overlap, 0, 1, thresholds_.probes_at_first};
+    const Judgement how{tolerance, options_.min_overlap, 0, 1, thresholds_.probes_at_first};
     return evidence_of_map(in_threads_, source_, target_, map, how);
   }
 
   Map_evidence evidence(const Affine_map_3& map) const {
-    Judgement how{tolerance_, request_.least_overlap, degrees_of_freedom(request_.kind), double(hypotheses_)};
+    Judgement how{tolerance_, options_.min_overlap, degrees_of_freedom(options_.kind), double(hypotheses_)};
     how.are_exact = has_exact_frames(source_) && has_exact_frames(target_);
     return evidence_of_map(in_threads_, source_, target_, map, how);
   }
@@ -219,7 +220,7 @@ private:
 
   bool in_threads_;
   const Framed_surface_3 &source_, &target_;
-  Registration_request request_;
+  Registration_options options_;
   Frame_thresholds thresholds_;
   double tolerance_; ///< in the unit of distances: surfaces that are nearer may be equal
   std::size_t hypotheses_ = 0, first_accepted_ = 0;
@@ -276,22 +277,23 @@ inline Affine_slippage_3 slippage_of_source(const Framed_surface_3& source, Map_
 
 inline Registration_of_functions_3 registration_of_framed(bool in_threads, const Framed_surface_3& source,
                                                           const Framed_surface_3& target,
-                                                          const Registration_request& request,
-                                                          Affine_slippage_3 slippage) {
+                                                          const Registration_options& options,
+                                                          Affine_slippage_3 slippage,
+                                                          const Frame_thresholds& thresholds = {}) {
   Registration_of_functions_3 registration;
   Surface_registration_3<Kernel_of_searches>& result = registration.result;
   result.size = target.size;
   result.slippage = std::move(slippage);
-  Registration_search search(in_threads, source, target, request);
+  Registration_search search(in_threads, source, target, options, thresholds);
   if (is_in_plane(source, search.tolerance()) || is_in_plane(target, search.tolerance())) return registration;
   if (result.slippage.dimension() > 0)
-    if (const auto map = map_of_quadrics(source, target, request)) search.try_map(*map);
+    if (const auto map = map_of_quadrics(source, target, options)) search.try_map(*map);
   if (search.accepted().empty()) search.run();
   if (result.slippage.dimension() == 0) search.find_equally_good();
   result.hypotheses = search.hypotheses();
   const auto accepted = search.accepted();
   if (result.slippage.dimension() == 0) result.equally_good = search.equally_good();
-  for (std::size_t n = 0; n < std::min(accepted.size(), request.number_of_maps); ++n)
+  for (std::size_t n = 0; n < std::min(accepted.size(), options.number_of_maps); ++n)
     result.maps.push_back(registered_map(accepted[n]));
   result.next_best_rms = search.next_best_rms();
   registration.is_equivalence =

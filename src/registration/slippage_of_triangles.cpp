@@ -4,7 +4,7 @@
 #include "registration/Piece_of_surface_3.h"
 #include "registration/refine_map.h"
 #include "registration/slippage.h"
-#include <equiaffine/registration/Map_kind.h>
+#include <equiaffine/registration/Registration_options.h>
 #include <equiaffine/registration/slippage_of_mesh.h>
 
 #include <Eigen/Core>

@@ -5,12 +5,18 @@
 #include "registration/Symmetry_check.h"
 #include "registration/Symmetry_search.h"
 #include "registration/slippage.h"
+#include "registration/surface_of_data.h"
 #include <equiaffine/base/Input_error.h>
+#include <equiaffine/function/Any_function_3.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
 #include <equiaffine/registration/affine_symmetries.h>
+#include <equiaffine/registration/internal/Surface_to_register.h>
+#include <equiaffine/registration/internal/searches.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -83,13 +89,12 @@ std::optional<std::vector<Affine_map_3>> nearby_group(std::vector<Affine_map_3> 
 /// The group that frames of a fit give, which are symmetries to within the tolerance of at least 98 % of the points. A
 /// fit has errors, so that the identity alone is no result.
 Affine_symmetries_3<Kernel_of_searches> symmetries_by_frames(bool in_threads, const Framed_surface_3& surface,
-                                                             const Map_request& request, double tolerance) {
-  Symmetry_search search(in_threads, surface, request.kind, tolerance);
+                                                             const Symmetry_options& options, double tolerance) {
+  Symmetry_search search(in_threads, surface, options.kind, tolerance);
   Affine_symmetries_3<Kernel_of_searches> result;
-  result.kind = request.kind;
+  result.kind = options.kind;
   std::vector<Affine_map_3> found = search.run();
-  if (!request.allows_reflections)
-    std::erase_if(found, [](const Affine_map_3& map) { return map.matrix.determinant() < 0; });
+  if (!options.reflections) std::erase_if(found, [](const Affine_map_3& map) { return map.matrix.determinant() < 0; });
   const auto group = nearby_group(std::move(found), surface, tolerance);
   if (!group) {
     result.maps = {symmetry({}, 0, 0)};
@@ -123,27 +128,27 @@ void check_by_rotations(const Affine_symmetries_3<Kernel_of_searches>& all,
 
 /// The symmetries among all rotations about the centroid.
 Affine_symmetries_3<Kernel_of_searches> symmetries_by_rotations(bool in_threads, const Any_function_3& function,
-                                                                const Map_request& request) {
-  const auto centered = centered_surface(in_threads, function, request.kind);
-  Centered_symmetry_search search(in_threads, centered, request.kind, request.allows_reflections,
-                                  request.tolerance.value_or(0));
+                                                                const Symmetry_options& options) {
+  const auto centered = centered_surface(in_threads, function, options.kind);
+  Centered_symmetry_search search(in_threads, centered, options.kind, options.reflections,
+                                  options.tolerance.value_or(0));
   const Centered_symmetries found = search.run();
   auto result = to_CGAL(found, centered);
-  result.kind = request.kind;
+  result.kind = options.kind;
   if (result.reason.empty()) result.spacing = centered.own.spacing;
   const bool is_exact = result.verdict == Symmetry_verdict::EXACT;
-  choose_maps(result, is_exact ? request.tolerance : request.tolerance.value_or(default_tolerance), found);
+  choose_maps(result, is_exact ? options.tolerance : options.tolerance.value_or(Default_tolerances::function), found);
   return result;
 }
 
 /// The continuous symmetries by the velocities at the probes, to rounding if there are some, else to within the
 /// tolerance.
-void find_continuous(const Framed_surface_3& surface, const Symmetry_request& request, bool is_exact,
+void find_continuous(const Framed_surface_3& surface, const Symmetry_options& options, bool is_exact,
                      Affine_symmetries_3<Kernel_of_searches>& result) {
-  const double tolerance = std::max(request.tolerance.value_or(0), slippage_tolerance);
-  Affine_slippage_3 slippage = slippage_of(surface, request.kind, is_exact ? exact_slippage : tolerance);
+  const double tolerance = std::max(options.tolerance.value_or(0), slippage_tolerance);
+  Affine_slippage_3 slippage = slippage_of(surface, options.kind, is_exact ? exact_slippage : tolerance);
   const bool is_to_rounding = is_exact && slippage.dimension() > 0;
-  if (is_exact && !is_to_rounding) slippage = slippage_of(surface, request.kind, tolerance);
+  if (is_exact && !is_to_rounding) slippage = slippage_of(surface, options.kind, tolerance);
   result.continuous = std::move(slippage);
   if (result.continuous.dimension() == 0) return;
   if (is_to_rounding) result.continuous.rms = 0;
@@ -155,13 +160,13 @@ void find_continuous(const Framed_surface_3& surface, const Symmetry_request& re
 /// Keeps the continuous symmetries of an exact function if motions of finite length confirm them at all points of the
 /// check. If they do not, those which more points allow are tried. Returns whether none is left.
 bool has_refuted_continuous(bool in_threads, Framed_surface_3 surface, const Symmetry_check& check,
-                            const Symmetry_request& request, Affine_symmetries_3<Kernel_of_searches>& result) {
+                            const Symmetry_options& options, Affine_symmetries_3<Kernel_of_searches>& result) {
   constexpr int attempts = 3, most_steps = 20;
   result.spacing = check.spacing();
   for (int attempt = 0; attempt < attempts && result.continuous.dimension() > 0; ++attempt) {
     const Checked_map moved = check.check_flows(in_threads, result.continuous.generators);
     if (moved.is_exact || (result.verdict == Symmetry_verdict::APPROXIMATE &&
-                           moved.rms <= request.tolerance.value_or(default_tolerance) * check.size()))
+                           moved.rms <= options.tolerance.value_or(Default_tolerances::function) * check.size()))
       return false;
     if (attempt + 1 == attempts) break;
     // Details that the probes have missed are at the points of the check, or where motions end off the surface.
@@ -170,7 +175,7 @@ bool has_refuted_continuous(bool in_threads, Framed_surface_3 surface, const Sym
       if (const Eigen::Vector3d foot = surface.refinement.moved_to_surface(p, most_steps);
           std::abs(surface.refinement.distance(foot).distance) < slippage_tolerance * check.size())
         surface.probes.push_back(foot);
-    find_continuous(surface, request, true, result);
+    find_continuous(surface, options, true, result);
   }
   result.continuous = {};
   result.verdict = Symmetry_verdict::UNDECIDED;
@@ -183,45 +188,46 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_of_exact_function(bool in_thr
                                                                      const Framed_surface_3& surface,
                                                                      const std::vector<Eigen::Vector3d>& points,
                                                                      const Symmetry_check& check,
-                                                                     const Symmetry_request& request) {
-  const double tolerance = request.tolerance.value_or(default_tolerance);
+                                                                     const Symmetry_options& options) {
+  const double tolerance = options.tolerance.value_or(Default_tolerances::function);
   const bool is_strict = tolerance <= greatest_tolerance_of_frames;
   Affine_symmetries_3<Kernel_of_searches> by_frames;
   if (is_strict) {
-    by_frames = symmetries_by_exact_frames(in_threads, surface.function, points, check, request);
-    if (by_frames.is_decided && request.is_complete)
-      check_by_rotations(symmetries_by_rotations(in_threads, function, request), by_frames);
+    by_frames = symmetries_by_exact_frames(in_threads, surface.function, points, check, options);
+    if (by_frames.is_decided && options.complete)
+      check_by_rotations(symmetries_by_rotations(in_threads, function, options), by_frames);
     if (by_frames.is_decided || check.is_cut()) return by_frames;
   }
-  auto result = symmetries_by_rotations(in_threads, function, request);
+  auto result = symmetries_by_rotations(in_threads, function, options);
   if (result.is_decided || is_strict) return result;
-  by_frames = symmetries_by_frames(in_threads, surface, request, tolerance);
+  by_frames = symmetries_by_frames(in_threads, surface, options, tolerance);
   return by_frames.is_decided ? by_frames : result;
 }
 
 } // namespace
 
-Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(bool in_threads, const Surface_with_points_3& given,
-                                                               const Symmetry_request& request) {
-  const auto& [function, points] = given;
+Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(bool in_threads, const Surface_to_register& given,
+                                                               const Symmetry_options& options) {
+  const Any_function_3& function = given.function;
+  const auto points = vectors_of(given.mesh.points);
   check_argument(!points.empty(), "a surface whose symmetries are sought has no points: give points on it");
   const Framed_function_3 framed(function);
-  const Framed_surface_3 surface = framed_surface(in_threads, framed, framed, points, request.kind);
+  const Framed_surface_3 surface = framed_surface(in_threads, framed, framed, points, options.kind);
   const double infinity = std::numeric_limits<double>::infinity(), distance = surface.probes.empty() ? infinity : 0;
   Affine_symmetries_3<Kernel_of_searches> result;
   result.maps = {symmetry({}, distance, distance)};
-  result.kind = request.kind;
+  result.kind = options.kind;
   result.reason = "the surface is beside all of the points";
   if (surface.probes.empty()) return result;
   const bool is_exact = has_exact_frames(surface);
-  const double tolerance = request.tolerance.value_or(default_tolerance);
-  find_continuous(surface, request, is_exact, result);
-  if (!is_exact) return result.is_decided ? result : symmetries_by_frames(in_threads, surface, request, tolerance);
+  const double tolerance = options.tolerance.value_or(Default_tolerances::function);
+  find_continuous(surface, options, is_exact, result);
+  if (!is_exact) return result.is_decided ? result : symmetries_by_frames(in_threads, surface, options, tolerance);
   const auto check = Symmetry_check::of(in_threads, function);
   if (check.is_cut()) result.order_in_box = 1;
-  const bool is_refuted = result.is_decided && has_refuted_continuous(in_threads, surface, check, request, result);
+  const bool is_refuted = result.is_decided && has_refuted_continuous(in_threads, surface, check, options, result);
   if (result.is_decided) return result;
-  result = symmetries_of_exact_function(in_threads, function, surface, points, check, request);
+  result = symmetries_of_exact_function(in_threads, function, surface, points, check, options);
   if (is_refuted && (!result.is_decided || (result.verdict == Symmetry_verdict::NONE && result.complete_to))) {
     result.is_decided = false;
     result.verdict = Symmetry_verdict::UNDECIDED;
@@ -231,22 +237,81 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(bool in_threads, 
   return result;
 }
 
-/// The symmetries of a mesh; the rigid ones if affine ones cannot be found.
 Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles(bool in_threads, const Triangles_3& mesh,
-                                                                const Map_request& request) {
+                                                                const Symmetry_options& options) {
   check_argument(!mesh.triangles.empty(), "a mesh whose symmetries are sought has no faces: give faces");
-  Centered_surface_3 surface = centered_surface(mesh, request.kind);
-  Map_kind kind = request.kind;
+  Centered_surface_3 surface = centered_surface(mesh, options.kind);
+  Map_kind kind = options.kind;
   if (!surface.reason_against.empty() && !keeps_angles(kind)) {
     kind = Map_kind::RIGID;
     surface = centered_surface(mesh, kind);
   }
-  Centered_symmetry_search search(in_threads, surface, kind, request.allows_reflections, request.tolerance.value_or(0));
+  Centered_symmetry_search search(in_threads, surface, kind, options.reflections, options.tolerance.value_or(0));
   const Centered_symmetries found = search.run();
   auto result = to_CGAL(found, surface);
   result.kind = kind;
-  choose_maps(result, request.tolerance, found);
+  choose_maps(result, options.tolerance, found);
   return result;
+}
+
+namespace {
+
+/// How far symmetries may move points from a surface of that origin if the user does not say it.
+std::optional<double> default_tolerance(Surface_origin origin) {
+  switch (origin) {
+  case Surface_origin::FUNCTION: return std::nullopt;
+  case Surface_origin::FIT: return Default_tolerances::fit;
+  default: return Default_tolerances::spline;
+  }
+}
+
+/// What may find more symmetries where only the identity was found, or nothing was decided, the most promising first.
+std::vector<Registration_advice> advice_for_symmetries(const Affine_symmetries_3<Kernel_of_searches>& found,
+                                                       Surface_origin origin, const Symmetry_options& options) {
+  using enum Registration_advice;
+  std::vector<Registration_advice> advice;
+  if (found.is_undecided()) {
+    if (origin == Surface_origin::DISTANCE) advice.push_back(FIT_OF_MESH);
+    if (origin == Surface_origin::RAW_VOLUME) advice.push_back(SMOOTHING);
+    if (!keeps_angles(found.kind)) advice.push_back(RIGID_MAPS);
+    if (!options.tolerance) advice.push_back(OTHER_TOLERANCE);
+  } else if (found.order() == 1U) {
+    if (!found.levels.empty()) advice.push_back(LARGER_TOLERANCE);
+    if (options.kind != Map_kind::AFFINE) advice.push_back(ALL_MAPS);
+    if (!options.reflections) advice.push_back(REFLECTIONS);
+  }
+  return advice;
+}
+
+} // namespace
+
+Symmetries_of_surface symmetries_of_surface(bool in_threads, const Mesh_of_searches& mesh, Surface_origin origin,
+                                            const std::function<Surface_to_register()>& make_level_set,
+                                            const Symmetry_options& options) {
+  const auto of_triangles = [&](const Mesh_of_searches& surface) {
+    return symmetries_of_triangles(in_threads, triangles_of_soup(surface.points, surface.triangles), options);
+  };
+  Symmetries_of_surface found;
+  const bool is_mesh = !mesh.triangles.empty();
+  if (is_mesh) found.result = of_triangles(mesh);
+  if (!is_mesh || (found.result.is_undecided() && !keeps_angles(options.kind) && found.result.levels.empty())) {
+    found.level_set = make_level_set();
+    Symmetry_options of_function = options;
+    if (!options.tolerance) of_function.tolerance = default_tolerance(origin);
+    const bool is_of_points = origin == Surface_origin::FIT && found.level_set->mesh.triangles.empty() &&
+                              !found.level_set->extracted.triangles.empty();
+    auto result = is_of_points ? of_triangles(found.level_set->extracted)
+                               : symmetries_of_function(in_threads, *found.level_set, of_function);
+    if (!is_mesh || !result.is_undecided()) found.result = std::move(result);
+  }
+  found.result.advice = advice_for_symmetries(found.result, origin, options);
+  return found;
+}
+
+Affine_symmetries_3<Kernel_of_searches> symmetries_of_data(bool in_threads, const Surface_data_3& data,
+                                                           const Symmetry_options& options) {
+  const auto fit = [&] { return surface_of_data(in_threads, data, options.fit, Use_of_surface::SYMMETRIES); };
+  return symmetries_of_surface(in_threads, data.mesh, Surface_origin::FIT, fit, options).result;
 }
 
 } // namespace equiaffine::internal

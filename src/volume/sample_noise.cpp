@@ -5,8 +5,8 @@
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
-#include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/Volume_options.h>
 #include <equiaffine/volume/Volume_survey.h>
 #include <equiaffine/volume/internal/Line_functionals.h>
 #include <equiaffine/volume/smooth_volume.h>
@@ -339,23 +339,27 @@ double least_risky_scale(const Smoothing_test_site& site, Spline_rule<double> ru
 
 } // namespace
 
-Sample_noise noise_of_samples(bool in_threads, const Volume_parts& volume, std::optional<double> isovalue) {
+Sample_noise noise_of_samples(bool in_threads, const Volume_parts& volume, std::optional<double> level) {
   constexpr std::size_t reach = 6;
   for (const auto& [part, cells] : volume.parts)
     check_known_cells(part, widened(cells, reach, cells_of(volume.lattice.size())));
-  const double deviation = white_noise_deviation(volume, nodes_to_measure(in_threads, volume, isovalue, reach, 40000));
+  const double deviation = white_noise_deviation(volume, nodes_to_measure(in_threads, volume, level, reach, 40000));
   const double quantum = quantum_of(volume);
   return {std::max(deviation, quantum == 1 ? 1 / std::sqrt(12.0) : 0), quantum};
 }
 
-double smoothing_of_samples(bool in_threads, const Volume_parts& volume, const Sample_noise& noise, int degree,
-                            Spline_scheme scheme, std::optional<double> isovalue) {
-  if (scheme == Spline_scheme::INTERPOLATION) scheme = Spline_scheme::QUASI_INTERPOLATION; // the same but for its reach
+double smoothing_of_samples(bool in_threads, const Volume_parts& volume, const Sample_noise& noise,
+                            const Volume_options& options) {
+  const int degree = options.spline_degree;
+  const Spline_scheme scheme = options.spline_scheme == Spline_scheme::INTERPOLATION
+                                   ? Spline_scheme::QUASI_INTERPOLATION // the same but for its reach
+                                   : options.spline_scheme;
   const auto& size = volume.lattice.size();
   if (*std::min_element(size.begin(), size.end()) <= std::size_t(degree)) return 0;
-  const Spline_parameters greatest = {.degree = degree, .scheme = scheme, .smoothing = greatest_scale_to_choose};
+  const Volume_options greatest = {
+      .smoothing = greatest_scale_to_choose, .spline_scheme = scheme, .spline_degree = degree};
   for (const auto& [part, cells] : volume.parts) check_known_cells(part, cells_to_know(cells, size, greatest));
-  const Smoothing_test_site site(volume, nodes_to_measure(in_threads, volume, isovalue, 1, 300), noise.deviation);
+  const Smoothing_test_site site(volume, nodes_to_measure(in_threads, volume, options.level, 1, 300), noise.deviation);
   if (site.cells().empty()) return 0;
   return least_risky_scale(site, {degree, scheme, border_degree(volume, degree, scheme), 0});
 }

@@ -39,7 +39,7 @@ struct Quality {
 std::array<Quality, 2> quality(const Volume& volume, int degree, double smoothing,
                                Spline_scheme scheme = Spline_scheme::QUASI_INTERPOLATION) {
   const Sampled_function_traits_3<Kernel> function(smooth_volume(volume, smoothing),
-                                                   {.degree = degree, .scheme = scheme});
+                                                   {.spline_scheme = scheme, .spline_degree = degree});
   const Curvature_error_3<Kernel> estimate(function, volume, smoothing, estimate_noise(volume, 0.).deviation);
   std::array<std::vector<double>, 2> ratios;
   for (int n = 0; n < 1000; ++n) {

@@ -113,22 +113,21 @@ TEST(Annotate_archetypes, of_meshes_and_ranges_are_enough_for_fits) {
   const Band band;
   archetypes::Points elements(Band::size);
   Written<double> mean, mean_of_points, error;
-  annotate_by_fit(band.graph, parameters::vertex_point_map(band.points())
-                                  .vertex_mean_curvature_map(writable(mean))
-                                  .vertex_mean_curvature_error_map(writable(error))
-                                  .scale(0.4));
+  annotate_by_fit(band.graph, {.scale = 0.4},
+                  parameters::vertex_point_map(band.points())
+                      .vertex_mean_curvature_map(writable(mean))
+                      .vertex_mean_curvature_error_map(writable(error)));
   const auto normals = archetypes::readable_map<Key>([&](const Key& v) { return band.point(v) - CGAL::ORIGIN; });
-  annotate_by_fit(elements, parameters::point_map(band.points())
-                                .normal_map(normals)
-                                .vertex_mean_curvature_map(writable(mean_of_points))
-                                .scale(0.4));
+  annotate_by_fit(
+      elements, {.scale = 0.4},
+      parameters::point_map(band.points()).normal_map(normals).vertex_mean_curvature_map(writable(mean_of_points)));
   ASSERT_EQ(mean.size(), Band::size);
   ASSERT_EQ(mean_of_points.size(), Band::size);
   for (const auto& [v, value] : mean) {
     EXPECT_NEAR(value, 1 / radius_of_band, 1e-3) << "the sign is that of CGAL";
     EXPECT_NEAR(mean_of_points.at(v), 1 / radius_of_band, 1e-3);
   }
-  const auto one = annotate_by_fit(Key(70), band.graph, parameters::vertex_point_map(band.points()).scale(0.4));
+  const auto one = annotate_by_fit(Key(70), band.graph, {.scale = 0.4}, parameters::vertex_point_map(band.points()));
   EXPECT_NEAR(one.structure.euclidean.mean_curvature, -1 / radius_of_band, 1e-3);
 }
 

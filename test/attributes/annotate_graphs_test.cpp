@@ -100,8 +100,8 @@ TYPED_TEST(Annotate_graph, maps_that_are_given_hold_the_structure_at_any_scale) 
     TypeParam graph;
     std::vector<Point> points;
     std::vector<std::array<std::size_t, 3>> triangles;
-    marching_cubes(traits, 0., points, triangles, parameters::number_of_nodes(8));
-    marching_cubes(traits, graph, parameters::number_of_nodes(8));
+    marching_cubes(traits, 0., points, triangles, {.resolution = 8});
+    marching_cubes(traits, graph, {.resolution = 8});
     ASSERT_EQ(num_vertices(graph), points.size());
     ASSERT_EQ(num_faces(graph), triangles.size());
     ASSERT_TRUE(CGAL::is_closed(graph));
@@ -141,12 +141,13 @@ TYPED_TEST(Annotate_graph, the_vertices_of_a_sampler_are_its_points_in_their_ord
                                           [](double x, double y, double z) { return x * x + y * y + z * z - 1; });
   // Vertices around a sample that is smoothed away are UNCONVERGED.
   volume.values[volume.lattice.index(1, 1, 1)] = -0.5;
-  const Sampled_function_traits_3<Kernel> traits(volume, {.degree = 5, .scheme = Spline_scheme::CONVOLUTION});
+  const Sampled_function_traits_3<Kernel> traits(volume,
+                                                 {.spline_scheme = Spline_scheme::CONVOLUTION, .spline_degree = 5});
   const auto surface = marching_cubes(traits);
   TypeParam graph;
   Values<TypeParam, Point_status> status;
   const auto result =
-      marching_cubes(traits, graph, parameters::vertex_status_map(boost::make_assoc_property_map(status)));
+      marching_cubes(traits, graph, {}, parameters::vertex_status_map(boost::make_assoc_property_map(status)));
   ASSERT_TRUE(CGAL::is_valid_polygon_mesh(graph));
   ASSERT_EQ(num_vertices(graph), surface.points.size());
   EXPECT_GT(std::count(result.vertex_status.begin(), result.vertex_status.end(), Point_status::UNCONVERGED), 0);
@@ -166,7 +167,7 @@ void expect_right_fits(double unit) {
   const auto height = [](double x, double y) { return 0.5 * x * x + y * y + 0.2 * x * x * y; };
   add_height_field(graph, 14, unit, height);
   Values<Graph, double> mean, error;
-  annotate_by_fit(graph, CGAL::parameters::verbose(false),
+  annotate_by_fit(graph, {.scale = 0}, CGAL::parameters::verbose(false),
                   parameters::vertex_mean_curvature_map(boost::make_assoc_property_map(mean))
                       .vertex_mean_curvature_error_map(boost::make_assoc_property_map(error)));
   std::size_t right = 0, all = 0, known = 0, inside = 0;
@@ -197,7 +198,7 @@ TEST(Annotate_maps, fits_to_a_mesh_of_any_size_are_right_within_their_errors) {
 TEST(Annotate_maps, curvatures_of_a_sphere_are_positive_as_in_CGAL) {
   const auto sphere = make_analytic_traits<Kernel>(analytic_functions::Sphere{0.5}, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
   Surface_mesh mesh;
-  marching_cubes(sphere, mesh, parameters::number_of_nodes(10));
+  marching_cubes(sphere, mesh, {.resolution = 10});
   using Vertex = Surface_mesh::Vertex_index;
   struct Principal {
     double min_curvature, max_curvature;
@@ -226,7 +227,7 @@ TEST(Annotate_maps, a_vertex_that_did_not_converge_keeps_its_status) {
   Surface_mesh mesh;
   Values<Surface_mesh, Point_status> status;
   const auto map = boost::make_assoc_property_map(status);
-  const auto facts = marching_cubes(traits, mesh, parameters::number_of_nodes(8).vertex_status_map(map));
+  const auto facts = marching_cubes(traits, mesh, {.resolution = 8}, parameters::vertex_status_map(map));
   EXPECT_EQ(facts.vertex_status.size(), mesh.number_of_vertices());
   EXPECT_TRUE(facts.points.empty());
   const Surface_mesh::Vertex_index v(3);
@@ -239,7 +240,7 @@ TEST(Annotate_maps, a_vertex_that_did_not_converge_keeps_its_status) {
 TEST(Annotate_maps, the_last_of_equal_names_counts_in_chains_of_both_libraries) {
   const auto traits = ellipsoid();
   Surface_mesh mesh;
-  marching_cubes(traits, mesh, parameters::number_of_nodes(6));
+  marching_cubes(traits, mesh, {.resolution = 6});
   using Vertex = Surface_mesh::Vertex_index;
   const auto twice = mesh.add_property_map<Vertex, Point>("twice").first;
   for (const Vertex v : mesh.vertices()) twice[v] = CGAL::ORIGIN + 2 * (mesh.point(v) - CGAL::ORIGIN);
@@ -309,7 +310,7 @@ TEST(Annotate_maps, a_map_that_grows_when_it_is_read_has_the_same_entries_with_t
 
 TEST(Annotate_maps, fits_to_a_point_set_take_its_points_and_the_normals_that_CGAL_calls_normal_map) {
   const auto traits = ellipsoid();
-  const auto surface = marching_cubes(traits, parameters::number_of_nodes(16));
+  const auto surface = marching_cubes(traits, {.resolution = 16});
   CGAL::Point_set_3<Point> points;
   points.add_normal_map();
   for (const auto& p : surface.points) {
@@ -319,7 +320,8 @@ TEST(Annotate_maps, fits_to_a_point_set_take_its_points_and_the_normals_that_CGA
   const auto H = points.add_property_map<double>("H").first;
   const auto error = points.add_property_map<double>("error").first;
   const auto ours = parameters::vertex_affine_mean_curvature_map(H).vertex_affine_mean_curvature_error_map(error);
-  annotate_by_fit<CGAL::Parallel_if_available_tag>(points, ours, CGAL::parameters::normal_map(points.normal_map()));
+  annotate_by_fit<CGAL::Parallel_if_available_tag>(points, {.scale = 0}, ours,
+                                                   CGAL::parameters::normal_map(points.normal_map()));
   std::size_t positive = 0;
   for (const auto& i : points) positive += H[i] > 0;
   EXPECT_EQ(positive, points.size()) << "normals point inside";
@@ -328,34 +330,23 @@ TEST(Annotate_maps, fits_to_a_point_set_take_its_points_and_the_normals_that_CGA
 TEST(Annotate_maps, a_fit_at_one_vertex_is_that_of_all_within_the_errors) {
   const auto traits = ellipsoid();
   Surface_mesh mesh;
-  marching_cubes(traits, mesh, parameters::number_of_nodes(14));
+  marching_cubes(traits, mesh, {.resolution = 14});
   using Vertex = Surface_mesh::Vertex_index;
   std::map<Vertex, Fitted_structure_3<double>> all;
-  annotate_by_fit(mesh, boost::make_assoc_property_map(all));
+  annotate_by_fit(mesh, boost::make_assoc_property_map(all), {.scale = 0});
   for (const Vertex v : {Vertex(0), Vertex(200)}) {
-    const auto one = annotate_by_fit(v, mesh), other = all.at(v);
+    const auto one = annotate_by_fit(v, mesh, {.scale = 0}), other = all.at(v);
     EXPECT_NEAR(one.structure.affine.mean_curvature, other.structure.affine.mean_curvature,
                 one.error.affine_mean_curvature + other.error.affine_mean_curvature);
   }
 }
 
-TEST(Annotate_maps, a_ball_radius_is_a_scale_and_minus_one_asks_for_the_own_curvature) {
-  Surface_mesh mesh;
-  add_height_field(mesh, 16, 1, [](double x, double y) { return 0.5 * x * x + y * y; });
-  const auto at = [&](const auto& parameters) {
-    return fitted_structures(mesh, parameters)[100].structure.euclidean.mean_curvature;
-  };
-  EXPECT_EQ(at(parameters::ball_radius(0.3)), at(parameters::scale(0.3)));
-  EXPECT_EQ(at(parameters::ball_radius(-1)), at(parameters::default_values()));
-}
-
 TEST(Samplers, write_into_the_containers_of_the_caller_behind_what_is_there) {
   const auto traits = ellipsoid();
-  const auto surface = marching_cubes(traits, parameters::number_of_nodes(9));
+  const auto surface = marching_cubes(traits, {.resolution = 9});
   std::vector<Point> points = {{7, 7, 7}};
   std::vector<std::vector<std::size_t>> triangles = {{0, 0, 0}};
-  const auto facts =
-      marching_cubes(traits, 0., points, triangles, CGAL::parameters::verbose(true), parameters::number_of_nodes(9));
+  const auto facts = marching_cubes(traits, 0., points, triangles, {.resolution = 9}, CGAL::parameters::verbose(true));
   ASSERT_EQ(points.size(), surface.points.size() + 1);
   ASSERT_EQ(triangles.size(), surface.triangles.size() + 1);
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
@@ -369,7 +360,7 @@ TEST(Samplers, the_isovalue_is_a_level_of_the_function) {
   const auto traits = ellipsoid();
   std::vector<Point> points;
   std::vector<std::array<int, 3>> triangles;
-  marching_cubes(traits, 0.3, points, triangles, parameters::number_of_nodes(9));
+  marching_cubes(traits, 0.3, points, triangles, {.resolution = 9});
   ASSERT_FALSE(points.empty());
   for (const Point& p : points) EXPECT_NEAR(traits.value(Kernel::Point_3(p.x(), p.y(), p.z())), 0.3, 1e-12);
 }

@@ -30,7 +30,7 @@ auto torus() {
 
 TEST(Annotate, property_maps_hold_the_local_structure_of_their_vertices) {
   const auto traits = torus();
-  Mesh mesh = to_surface_mesh(marching_cubes(traits, parameters::number_of_nodes(20)));
+  Mesh mesh = to_surface_mesh(marching_cubes(traits, {.resolution = 20}));
   annotate(mesh, traits);
   ASSERT_TRUE(mesh.is_valid(false));
   const auto scalar = [&](const std::string& name) {
@@ -96,7 +96,7 @@ TEST(Annotate, no_face_is_lost_where_a_mesh_is_not_a_manifold) {
 TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads) {
   SKIP_IF_THE_COMPILER_CONTRACTS();
   const auto traits = torus();
-  const auto surface = marching_cubes(traits, parameters::number_of_nodes(20));
+  const auto surface = marching_cubes(traits, {.resolution = 20});
   Mesh mesh = to_surface_mesh(surface);
   annotate<CGAL::Parallel_if_available_tag>(mesh, traits);
   const auto columns =

@@ -51,7 +51,7 @@ auto quartic() {
 /// A closed mesh of triangles with removed vertices, edges and faces at the beginning and in the middle, and a vertex
 /// removed at the end.
 Mesh mesh_with_garbage() {
-  Mesh mesh = to_surface_mesh(marching_cubes(quartic(), parameters::number_of_nodes(24)));
+  Mesh mesh = to_surface_mesh(marching_cubes(quartic(), {.resolution = 24}));
   const Vertex last = mesh.add_vertex(Point_3(0, 0, 0)); // it would take the place of a removed one later
   for (const unsigned v : {0u, 3u, 200u}) CGAL::Euler::remove_center_vertex(mesh.halfedge(Vertex(v)), mesh);
   CGAL::Polygon_mesh_processing::triangulate_faces(mesh);
@@ -95,19 +95,19 @@ TEST(Removed_elements, annotations_are_those_of_the_mesh_without_them) {
   annotate<CGAL::Parallel_if_available_tag>(mesh, quartic());
   annotate(without, quartic());
   EXPECT_EQ(numbers_of(mesh, "v:affine_mean_curvature"), numbers_of(without, "v:affine_mean_curvature"));
-  annotate_by_fit(mesh);
-  annotate_by_fit(without);
+  annotate_by_fit(mesh, {.scale = 0});
+  annotate_by_fit(without, {.scale = 0});
   EXPECT_EQ(numbers_of(mesh, "v:affine_gaussian_curvature"), numbers_of(without, "v:affine_gaussian_curvature"));
   EXPECT_EQ(numbers_of(mesh, "v:mean_curvature_error"), numbers_of(without, "v:mean_curvature_error"));
 }
 
 TEST(Removed_elements_long, fits_are_those_of_the_mesh_without_them) {
   Mesh mesh = mesh_with_garbage(), without = without_garbage(mesh);
-  const auto structures = fitted_structures(mesh), expected = fitted_structures(without);
+  const auto structures = fitted_structures(mesh, {.scale = 0}), expected = fitted_structures(without, {.scale = 0});
   ASSERT_EQ(structures.size(), expected.size());
   for (std::size_t i = 0; i < structures.size(); ++i)
     EXPECT_EQ(structures[i].structure.euclidean.k1, expected[i].structure.euclidean.k1) << i;
-  const Fitted_function_traits_3<Kernel> fit(mesh), fit_without(without);
+  const Fitted_function_traits_3<Kernel> fit(mesh, {.scale = 0}), fit_without(without, {.scale = 0});
   const Point_3 p = points_of(mesh)[50];
   EXPECT_EQ(fit.value(p), fit_without.value(p));
   EXPECT_EQ(move_to_fit(mesh, fit).number_on_fit(), move_to_fit(without, fit).number_on_fit());
@@ -120,11 +120,12 @@ TEST(Removed_elements_long, fits_are_those_of_the_mesh_without_them) {
 
 TEST(Removed_elements_long, maps_between_meshes_are_those_of_the_meshes_without_them) {
   const Mesh mesh = mesh_with_garbage(), without = without_garbage(mesh);
-  const auto rigid = parameters::map_kind(Map_kind::RIGID);
+  const Registration_options rigid = {.kind = Map_kind::RIGID};
   const auto found = register_surfaces(mesh, without, rigid), expected = register_surfaces(without, without, rigid);
   ASSERT_TRUE(found.found() && expected.found());
   EXPECT_NEAR(found.best().rms, expected.best().rms, 1e-9);
-  EXPECT_EQ(affine_symmetries(mesh, rigid).order(), affine_symmetries(without, rigid).order());
+  EXPECT_EQ(affine_symmetries(mesh, {.kind = Map_kind::RIGID}).order(),
+            affine_symmetries(without, {.kind = Map_kind::RIGID}).order());
 }
 
 TEST(Removed_elements, distances_curves_and_files_are_those_of_the_mesh_without_them) {
@@ -148,15 +149,15 @@ TEST(Removed_elements, distances_curves_and_files_are_those_of_the_mesh_without_
 }
 
 TEST(Removed_elements, a_mesh_that_has_them_gets_the_surface_of_a_sampler) {
-  const auto surface = marching_cubes(quartic(), parameters::number_of_nodes(12));
+  const auto surface = marching_cubes(quartic(), {.resolution = 12});
   Mesh mesh = mesh_with_garbage();
   const std::size_t vertices = mesh.number_of_vertices() + surface.points.size();
   const std::size_t faces = mesh.number_of_faces() + surface.triangles.size();
-  marching_cubes(quartic(), mesh, parameters::number_of_nodes(12));
+  marching_cubes(quartic(), mesh, {.resolution = 12});
   EXPECT_TRUE(mesh.is_valid() && CGAL::is_closed(mesh));
   EXPECT_EQ(mesh.number_of_faces(), faces);
   EXPECT_EQ(mesh.number_of_vertices(), vertices);
-  const auto sampled = delaunay_surface(quartic(), mesh, Delaunay_criteria{20, 0.5, 0.1});
+  const auto sampled = delaunay_surface(quartic(), mesh, {.angle = 20, .radius = 0.5, .distance = 0.1});
   EXPECT_TRUE(mesh.is_valid() && CGAL::is_closed(mesh));
   EXPECT_EQ(mesh.number_of_vertices(), vertices + sampled.vertex_status.size());
 }

@@ -44,7 +44,7 @@ int main() {
   if (equiaffine::affine_symmetries(corners, faces).order() != 24) return EXIT_FAILURE;
   std::vector<Kernel::Point_3> points;
   for (int i = 0; i < 64; ++i) points.emplace_back(i % 8, i / 8, 0.01 * (i % 8) * (i / 8));
-  if (equiaffine::fitted_structures(points).size() != points.size()) return EXIT_FAILURE;
+  if (equiaffine::fitted_structures(points, {.scale = 0}).size() != points.size()) return EXIT_FAILURE;
 
   // Exceptions and the observer of a thread pass between this program and the library, shared or not.
   try {
@@ -55,7 +55,7 @@ int main() {
   struct Cancelled {};
   const equiaffine::Progress_observer observer([](const auto&) { throw Cancelled(); }, {});
   try {
-    equiaffine::fitted_structures(points);
+    equiaffine::fitted_structures(points, {.scale = 0});
     return EXIT_FAILURE;
   } catch (const Cancelled&) {
   }

@@ -34,7 +34,7 @@ constexpr double facet_distance = 0.02;
 /// Expects a mesh of the solid f < 0 in the domain, whose volume and area of surface are known: it may lack as much as
 /// facets are off the surface.
 void expect_solid(const char* f, const Clip_domain_3& clip, double volume, double area, const std::set<int>& patches) {
-  const Domain domain(Traits(Expression_3(f), clip.bbox()), clip, 0.2);
+  const Domain domain(Traits(Expression_3(f), clip.bbox()), {.clip = clip, .radius = 0.2});
   const CGAL::Mesh_criteria_3<Triangulation> criteria(
       CGAL::Mesh_facet_criteria_3<Triangulation>(25, 0.2, facet_distance),
       CGAL::Mesh_cell_criteria_3<Triangulation>(3, 0.3));
@@ -86,7 +86,7 @@ TEST(Implicit_mesh_domain, segments_rays_and_lines_meet_the_zero_set_inside_the_
 }
 
 TEST(Implicit_mesh_domain, initial_points_of_the_zero_set_are_none_of_the_border) {
-  const Domain domain(Traits(Expression_3("z"), box), Clip_domain_3(box), 0.2);
+  const Domain domain(Traits(Expression_3("z"), box), {.radius = 0.2});
   std::vector<std::pair<Kernel::Point_3, int>> points, all;
   domain.construct_initial_points_of_zero_set_object()(std::back_inserter(points));
   domain.construct_initial_points_object()(std::back_inserter(all));

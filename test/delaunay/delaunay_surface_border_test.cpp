@@ -20,8 +20,8 @@ using namespace meshed_surfaces;
 namespace functions = equiaffine::analytic_functions;
 
 TEST(Delaunay_surface, the_boundary_lies_on_the_sphere_that_cuts_a_surface_off) {
-  const auto surface = delaunay_surface(traits_of(functions::Barth_sextic{0.3}), {30, 0.1, 0},
-                                        parameters::clip(Clip_domain_3({0, 0, 0}, 1.7)));
+  const auto surface =
+      delaunay_surface(traits_of(functions::Barth_sextic{0.3}), {.radius = 0.1, .clip = Clip_domain_3({0, 0, 0}, 1.7)});
   const auto is_boundary = is_on_boundary(surface);
   std::size_t on_sphere = 0;
   for (std::size_t v = 0; v < surface.points.size(); ++v) {
@@ -35,7 +35,7 @@ TEST(Delaunay_surface, the_boundary_lies_on_the_sphere_that_cuts_a_surface_off) 
 TEST(Delaunay_surface, the_boundary_lies_on_the_faces_of_the_box_and_has_vertices_on_its_edges) {
   const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
   const auto traits = make_analytic_traits<Kernel>(Expression_3("x^2+y^2+z^2-2.2"), box); // a piece at each corner
-  const auto surface = delaunay_surface(traits, {30, 0.08, 0});
+  const auto surface = delaunay_surface(traits, {.radius = 0.08});
   EXPECT_EQ(topology(surface).components, 8u);
   const auto is_boundary = is_on_boundary(surface);
   int corners = 0;
@@ -52,7 +52,7 @@ TEST(Delaunay_surface, the_boundary_lies_on_the_faces_of_the_box_and_has_vertice
 TEST(Delaunay_surface, no_vertex_is_outside_of_the_box_where_a_surface_leaves_it_in_fine_waves) {
   const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
   const auto surface =
-      delaunay_surface(make_analytic_traits<Kernel>(Expression_3("x-z+1e-3*sin(1e3*y)"), box), {30, 0.1, 0});
+      delaunay_surface(make_analytic_traits<Kernel>(Expression_3("x-z+1e-3*sin(1e3*y)"), box), {.radius = 0.1});
   EXPECT_FALSE(surface.triangles.empty());
   for (const Point_3& p : surface.points) ASSERT_TRUE(Clip_domain_3(box).contains(p)) << p;
 }
@@ -68,7 +68,7 @@ TEST(Delaunay_surface, curves_on_the_border_nearer_than_facets_are_large_are_kep
 }
 
 TEST(Delaunay_surface, beside_features_angles_are_as_large_as_elsewhere) {
-  const auto surface = delaunay_surface(traits_of(functions::Gyroid()), {30, 0.2, 0});
+  const auto surface = delaunay_surface(traits_of(functions::Gyroid()), {.radius = 0.2});
   EXPECT_GT(topology(surface).boundary_edges, 500u);
   EXPECT_GE(smallest_angle(surface, std::vector<bool>(surface.points.size(), false)), 29.999);
   EXPECT_TRUE(topology(surface).is_manifold);
@@ -97,7 +97,7 @@ TEST(Delaunay_surface, the_border_follows_the_curves_where_the_function_ends) {
   const auto distance_to_line = [](const Point_3& p) { return std::hypot(p.x(), p.z()); };
   const auto distance_to_plane = [](const Point_3& p) { return std::abs(p.x() + p.y() + p.z() / 2 - 0.1); };
   const auto expect_end = [&](const char* text, long euler_characteristic, const auto& distance) {
-    const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {30, radius, 0});
+    const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {.radius = radius});
     const auto t = topology(surface);
     EXPECT_TRUE(t.is_manifold) << text;
     EXPECT_EQ(t.components, 1u) << text;
@@ -122,7 +122,7 @@ TEST(Delaunay_surface, the_border_follows_the_curves_where_the_function_ends) {
 TEST(Delaunay_surface, strips_between_faces_of_the_box_much_narrower_than_facets_are_whole) {
   for (const double thickness : {0.1, 0.02, 0.004}) {
     const CGAL::Bbox_3 slice(-2, -2, -thickness / 2, 2, 2, thickness / 2);
-    const auto surface = delaunay_surface(make_analytic_traits<Kernel>(functions::Sphere(), slice), {30, 0.11, 0});
+    const auto surface = delaunay_surface(make_analytic_traits<Kernel>(functions::Sphere(), slice), {.radius = 0.11});
     const auto t = topology(surface);
     EXPECT_TRUE(t.is_manifold) << thickness;
     EXPECT_EQ(t.components, 1u) << thickness;
@@ -136,7 +136,7 @@ TEST(Delaunay_surface, a_plane_beside_an_edge_of_the_box_is_meshed_at_any_size) 
   const CGAL::Bbox_3 box(0, 0, -1, 1, 1, 1);
   for (const char* text : {"x+y-0.2", "x+y-0.02"})
     for (const double radius : {0.4, 0.2, 0.1, 0.05}) {
-      const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {30, radius, 0});
+      const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {.radius = radius});
       const auto t = topology(surface);
       EXPECT_TRUE(t.is_manifold) << text << radius;
       EXPECT_EQ(t.components, 1u) << text << radius;
@@ -147,7 +147,7 @@ TEST(Delaunay_surface, a_plane_beside_an_edge_of_the_box_is_meshed_at_any_size) 
 
 TEST(Delaunay_surface, components_at_any_face_and_edge_of_the_box_are_found) {
   const auto expect_two = [](const char* text, const CGAL::Bbox_3& box, double radius) {
-    const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {30, radius, 0});
+    const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {.radius = radius});
     EXPECT_EQ(topology(surface).components, 2u) << text;
     EXPECT_TRUE(surface.is_certified) << text;
   };
@@ -167,7 +167,7 @@ TEST(Delaunay_surface, a_surface_that_touches_the_box_in_an_edge_ends) {
 TEST(Delaunay_surface, a_cap_cut_off_by_the_border_is_found) {
   const auto traits = make_analytic_traits<Kernel>(Expression_3("x^2+y^2+(z-1.49)^2-0.25"), // reaches 0.01 inside
                                                    CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-  const auto surface = delaunay_surface(traits, {30, 0.01, 0});
+  const auto surface = delaunay_surface(traits, {.radius = 0.01});
   EXPECT_GT(surface.triangles.size(), 100u);
   EXPECT_EQ(topology(surface).components, 1u);
 }

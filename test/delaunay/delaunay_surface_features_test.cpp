@@ -40,10 +40,10 @@ TEST(Delaunay_surface, triangles_beside_creases_are_oriented_as_their_neighbors_
 TEST(Delaunay_surface, what_straddles_a_parabolic_curve_is_not_certified) {
   const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
   const auto traits = make_analytic_traits<Kernel>(Expression_3("z-sin(3*x)*sin(2.5*y)/2"), box);
-  const auto coarse = delaunay_surface(traits, {30, 0.5, 0}, parameters::parabolic_features());
+  const auto coarse = delaunay_surface(traits, {.radius = 0.5, .parabolic_curves = true});
   EXPECT_FALSE(coarse.is_certified);
   EXPECT_FALSE(coarse.undecided_boxes.empty());
-  EXPECT_TRUE(delaunay_surface(traits, {30, 0.1, 0}, parameters::parabolic_features()).is_certified);
+  EXPECT_TRUE(delaunay_surface(traits, {.radius = 0.1, .parabolic_curves = true}).is_certified);
 }
 
 // At these radii the first mesh is so coarse that the pieces of parabolic curves found on it lead to the same curve.
@@ -55,7 +55,7 @@ TEST(Delaunay_surface, parabolic_curves_that_coincide_but_for_rounding_end_in_un
   for (const auto& [text, h, radius] : {Case{"z-sin(3*x)*sin(2.5*y)/2", 1, 1}, Case{"z-sin(3*x)*sin(2.5*y)/2", 3, 1},
                                         Case{"z-sin(3*x)*sin(2.5*y)/2", 5, 1}, Case{"y^x-z-.5*z/x-x", 2, 0.5}}) {
     const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-h, -h, -h, h, h, h));
-    const auto surface = delaunay_surface(traits, {30, radius, 0}, parameters::parabolic_features());
+    const auto surface = delaunay_surface(traits, {.radius = radius, .parabolic_curves = true});
     EXPECT_FALSE(surface.is_certified) << text;
     EXPECT_FALSE(surface.undecided_boxes.empty()) << text;
     EXPECT_FALSE(surface.triangles.empty()) << text;
@@ -70,7 +70,7 @@ bool has_vertex(const Surface& surface, const Point_3& p) {
 }
 
 TEST(Delaunay_surface, nodes_are_vertices) {
-  const auto cayley = delaunay_surface(traits_of(functions::Cayley_cubic()), {30, 0.2, 0});
+  const auto cayley = delaunay_surface(traits_of(functions::Cayley_cubic()), {.radius = 0.2});
   for (const Point_3& node : {Point_3(1, 1, 1), Point_3(1, -1, -1), Point_3(-1, 1, -1), Point_3(-1, -1, 1)})
     EXPECT_TRUE(has_vertex(cayley, node)) << node;
 }
@@ -78,7 +78,7 @@ TEST(Delaunay_surface, nodes_are_vertices) {
 TEST(Delaunay_surface, apexes_where_the_function_has_no_gradient_are_vertices) {
   const CGAL::Bbox_3 box(-2, -2, -2, 2, 2, 2);
   const auto mesh = [&](const char* text) {
-    return delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {30, 0.2, 0});
+    return delaunay_surface(make_analytic_traits<Kernel>(Expression_3(text), box), {.radius = 0.2});
   };
   for (const char* half_cone : {"z-.2-sqrt((x-.1)^2+(y+.3)^2)", "z-.2-3*hypot(x-.1,y+.3)",
                                 "z-.2-sqrt((x-.1)^2+(y+.3)^2)-.3*(x-.1)^2", "z-.2-abs(x-.1)-abs(y+.3)"}) {
@@ -97,7 +97,7 @@ TEST(Delaunay_surface, apexes_where_the_function_has_no_gradient_are_vertices) {
 
 TEST(Delaunay_surface, no_triangle_straddles_a_parabolic_curve) {
   const functions::Torus f;
-  const auto surface = delaunay_surface(traits_of(f), {30, 0.1, 0}, parameters::parabolic_features());
+  const auto surface = delaunay_surface(traits_of(f), {.radius = 0.1, .parabolic_curves = true});
   EXPECT_EQ(topology(surface).euler_characteristic, 0);
   EXPECT_TRUE(topology(surface).is_manifold);
   int on_curve = 0;
@@ -117,7 +117,7 @@ TEST(Delaunay_surface, no_triangle_straddles_a_parabolic_curve) {
 TEST(Delaunay_surface, no_triangle_straddles_parabolic_curves_that_cross_and_end_at_the_border) {
   const CGAL::Bbox_3 box(-4, -4, -4, 4, 4, 4);
   const auto traits = make_analytic_traits<Kernel>(Expression_3("z-sin(x)*sin(y)"), box); // lines, x+y and x-y constant
-  const auto surface = delaunay_surface(traits, {30, 0.2, 0}, parameters::parabolic_features());
+  const auto surface = delaunay_surface(traits, {.radius = 0.2, .parabolic_curves = true});
   EXPECT_TRUE(surface.is_certified);
   EXPECT_TRUE(topology(surface).is_manifold);
   EXPECT_EQ(topology(surface).euler_characteristic, 1);
@@ -152,7 +152,7 @@ TEST(Delaunay_surface, edges_follow_a_curve_that_is_given) {
   }
   parallel.is_closed = true;
   const auto traits = traits_of(functions::Sphere());
-  const auto surface = delaunay_surface(traits, {30, 0.2, 0}, parameters::feature_curves(std::vector{parallel}));
+  const auto surface = delaunay_surface(traits, {.radius = 0.2}, parameters::feature_curves(std::vector{parallel}));
   EXPECT_EQ(topology(surface).euler_characteristic, 2);
   expect_vertices_on_surface(traits, surface, 1);
   const double sagitta = radius * (1 - std::cos(CGAL_PI / 200));

@@ -21,7 +21,7 @@ namespace functions = equiaffine::analytic_functions;
 
 TEST(Delaunay_surface, every_point_of_the_surface_is_near_the_mesh) {
   const double radius = 0.08, distance = 0.004;
-  const auto surface = delaunay_surface(traits_of(functions::Sphere()), {30, radius, distance});
+  const auto surface = delaunay_surface(traits_of(functions::Sphere()), {.radius = radius, .distance = distance});
   for (const auto& t : surface.triangles) {
     const Point_3 c = CGAL::circumcenter(surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]);
     const double height = 1 - std::sqrt((c - CGAL::ORIGIN).squared_length());
@@ -48,7 +48,7 @@ TEST(Delaunay_surface, facets_have_the_size_of_their_place) {
   const auto traits = traits_of(f);
   const double radius = 0.15, extent = Clip_domain_3(f.box()).diagonal() / 4;
   for (const Facet_sizing sizing : {Facet_sizing::UNIFORM, Facet_sizing::EUCLIDEAN, Facet_sizing::AFFINE}) {
-    const auto surface = delaunay_surface(traits, {30, radius, 1}, parameters::facet_sizing(sizing));
+    const auto surface = delaunay_surface(traits, {.radius = radius, .distance = 1, .sizing = sizing});
     EXPECT_EQ(topology(surface).euler_characteristic, 2);
     double largest = 0, largest_at_tip = 0;
     for (const auto& t : surface.triangles) {
@@ -84,7 +84,7 @@ template <class Traits>
 Affine_areas affine_areas(const Traits& traits, Facet_sizing sizing) {
   // Nowhere is the curvature so small, compared to that of a sphere in this box, that the size is cut off.
   const Clip_domain_3 domain(CGAL::Bbox_3(-12, -12, -12, 12, 12, 12));
-  const auto surface = delaunay_surface(traits, {30, 0.1, 1}, parameters::clip(domain).facet_sizing(sizing));
+  const auto surface = delaunay_surface(traits, {.radius = 0.1, .distance = 1, .sizing = sizing, .clip = domain});
   double sum = 0, sum_of_squares = 0;
   for (const auto& t : surface.triangles) {
     const Point_3 &p = surface.points[t[0]], &q = surface.points[t[1]], &r = surface.points[t[2]];

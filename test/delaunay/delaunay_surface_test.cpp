@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay/meshed_surfaces.h"
+#include "support/error_field.h"
 #include <equiaffine/delaunay/Implicit_mesh_domain_3.h>
 #include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/formula/Expression_3.h>
@@ -36,7 +37,7 @@ struct Expected {
 template <class Function>
 void expect_mesh(const Function& f, const Expected& expected, const Clip_domain_3& domain) {
   const auto traits = traits_of(f);
-  const auto surface = delaunay_surface(traits, {30, expected.radius, 0}, parameters::clip(domain));
+  const auto surface = delaunay_surface(traits, {.radius = expected.radius, .clip = domain});
   const auto t = topology(surface);
   EXPECT_TRUE(t.is_manifold);
   EXPECT_EQ(t.boundary_edges == 0, expected.is_closed);
@@ -72,7 +73,7 @@ TEST(Delaunay_surface, a_sextic_is_cut_off_at_the_ball) {
 
 TEST(Delaunay_surface, a_mesh_of_CGAL_gets_the_same_triangles_by_default_criteria) {
   const auto traits = traits_of(functions::Gyroid());
-  const auto surface = delaunay_surface(traits, CGAL::parameters::verbose(false));
+  const auto surface = delaunay_surface(traits, {}, CGAL::parameters::verbose(false));
   CGAL::Surface_mesh<Point_3> mesh;
   const auto facts = delaunay_surface(traits, mesh);
   EXPECT_EQ(mesh.number_of_faces(), surface.triangles.size());
@@ -84,15 +85,14 @@ TEST(Delaunay_surface, a_mesh_of_CGAL_gets_the_same_triangles_by_default_criteri
 TEST(Delaunay_surface, arguments_without_a_result_are_refused_in_every_build) {
   constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
   const auto sphere = traits_of(functions::Sphere());
-  for (const Delaunay_criteria& criteria : {Delaunay_criteria{31, 0.1, 0},
-                                            {-1, 0.1, 0},
-                                            {nan, 0.1, 0},
-                                            {30, -1, 0},
-                                            {30, nan, 0},
-                                            {30, infinity, 0},
-                                            {30, 0.1, -1},
-                                            {30, 0.1, infinity}})
-    EXPECT_THROW(delaunay_surface(sphere, criteria), std::invalid_argument);
+  const auto field = [&](const Delaunay_options& options) {
+    return error_field([&] { delaunay_surface(sphere, options); });
+  };
+  for (const double angle : {31.0, -1.0, nan}) EXPECT_EQ(field({.angle = angle, .radius = 0.1}), "angle");
+  for (const double length : {-1.0, 0.0, nan, infinity}) {
+    EXPECT_EQ(field({.radius = length}), "radius");
+    EXPECT_EQ(field({.radius = 0.1, .distance = length}), "distance");
+  }
   const CGAL::Bbox_3 space(-infinity, -infinity, -infinity, infinity, infinity, infinity);
   EXPECT_THROW(delaunay_surface(make_analytic_traits<Kernel>(Expression_3("x"), space)), std::invalid_argument);
   for (const double size : {1e-41, 1e41}) {
@@ -103,7 +103,7 @@ TEST(Delaunay_surface, arguments_without_a_result_are_refused_in_every_build) {
   EXPECT_THROW(delaunay_surface(make_analytic_traits<Kernel>(Expression_3("z-50"), far)), std::invalid_argument);
   const Clip_domain_3 domain(sphere.bbox());
   for (const double size : {-1.0, nan, infinity}) {
-    EXPECT_THROW(Implicit_mesh_domain_3(sphere, domain, size), std::invalid_argument);
+    EXPECT_EQ(error_field([&] { Implicit_mesh_domain_3(sphere, {.radius = size}); }), "radius");
     EXPECT_THROW(certified_seeding(
                      sphere, domain, [](const Point_3&) { return 1.0; }, size),
                  std::invalid_argument);
@@ -114,7 +114,7 @@ TEST(Delaunay_surface, the_image_of_a_surface_has_its_topology_and_vertices_on_i
   const functions::Tanglecube f;
   const Kernel::Aff_transformation_3 map(0.9, 0, 0.9, 0, 2, 0, 1.1, 0, 0.6);
   const Transformed_function_traits_3 traits(traits_of(f), map);
-  const auto surface = delaunay_surface(traits, {30, 0.15, 0});
+  const auto surface = delaunay_surface(traits, {.radius = 0.15});
   EXPECT_TRUE(surface.is_certified);
   EXPECT_TRUE(surface.undecided_boxes.empty());
   EXPECT_EQ(topology(surface).components, 1u);
@@ -129,7 +129,7 @@ TEST(Delaunay_surface, a_volume_is_meshed_like_its_function) {
   const functions::Torus torus;
   const auto traits = traits_of(torus);
   const Sampled_function_traits_3<Kernel> volume(sample_on_lattice(traits, sampling_lattice(traits, {40, 40, 24})));
-  const auto surface = delaunay_surface(volume, {30, 0.06, 0});
+  const auto surface = delaunay_surface(volume, {.radius = 0.06});
   EXPECT_EQ(topology(surface).euler_characteristic, 0);
   EXPECT_EQ(topology(surface).components, 1u);
   EXPECT_TRUE(surface.is_certified);
@@ -164,7 +164,7 @@ TEST(Delaunay_surface, a_tiny_sphere_is_found_wherever_it_is) {
     f.center = {coordinate(random), coordinate(random), coordinate(random)};
     const double distance = std::hypot(f.center[0], f.center[1], f.center[2]);
     if (distance < 1.02) continue;
-    const auto surface = delaunay_surface(traits_of(f), {30, 0.4, 0});
+    const auto surface = delaunay_surface(traits_of(f), {.radius = 0.4});
     const auto t = topology(surface);
     ASSERT_EQ(t.components, 2u) << f.center[0] << ' ' << f.center[1] << ' ' << f.center[2];
     ASSERT_EQ(t.euler_characteristic, 4);

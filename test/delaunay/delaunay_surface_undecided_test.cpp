@@ -42,18 +42,18 @@ TEST(Delaunay_surface, what_is_not_a_manifold_is_not_certified) {
 
 TEST(Delaunay_surface, poles_are_no_surfaces) {
   const CGAL::Bbox_3 box(-2, -2, -2, 2, 2, 2);
-  const Delaunay_criteria criteria{30, 0.2, 0};
-  EXPECT_TRUE(delaunay_surface(make_analytic_traits<Kernel>(Expression_3("1/x"), box), criteria).points.empty());
-  const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3("1/x+y"), box), criteria);
+  const Delaunay_options options{.radius = 0.2};
+  EXPECT_TRUE(delaunay_surface(make_analytic_traits<Kernel>(Expression_3("1/x"), box), options).points.empty());
+  const auto surface = delaunay_surface(make_analytic_traits<Kernel>(Expression_3("1/x+y"), box), options);
   EXPECT_FALSE(surface.triangles.empty());
   for (const Point_3& p : surface.points) ASSERT_NEAR(p.x() * p.y(), -1, 1e-13) << p;
   const auto tangent = make_analytic_traits<Kernel>(Expression_3("tan(x)-y"), box);
-  for (const double radius : {0.2, 0.0}) {
-    const auto sheet = delaunay_surface(tangent, {30, radius, 0}); // between the poles at -pi/2 and pi/2
+  for (const bool is_coarse : {false, true}) {
+    const auto sheet = delaunay_surface(tangent, is_coarse ? Delaunay_options() : options); // between the poles at +-pi/2
     const auto t = topology(sheet);
-    EXPECT_TRUE(t.is_manifold) << radius;
-    EXPECT_EQ(t.components, 1u) << radius;
-    EXPECT_EQ(t.euler_characteristic, 1) << radius;
+    EXPECT_TRUE(t.is_manifold) << is_coarse;
+    EXPECT_EQ(t.components, 1u) << is_coarse;
+    EXPECT_EQ(t.euler_characteristic, 1) << is_coarse;
     const auto is_boundary = is_on_boundary(sheet);
     for (std::size_t v = 0; v < sheet.points.size(); ++v)
       EXPECT_TRUE(!is_boundary[v] || std::abs(sheet.points[v].y()) == 2 || std::abs(sheet.points[v].z()) == 2);
@@ -63,8 +63,7 @@ TEST(Delaunay_surface, poles_are_no_surfaces) {
 TEST(Delaunay_surface, a_surface_is_found_on_a_segment_that_meets_a_pole_as_well) {
   const CGAL::Bbox_3 box(-5, -5, -5, 5, 5, 5);
   using Exact_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  const Implicit_mesh_domain_3 domain(make_analytic_traits<Kernel>(Expression_3("tan(x)-y"), box), Clip_domain_3(box),
-                                      0.3);
+  const Implicit_mesh_domain_3 domain(make_analytic_traits<Kernel>(Expression_3("tan(x)-y"), box), {.radius = 0.3});
   const auto meets = [&](double x_below, double x_above) {
     const Exact_kernel::Segment_3 segment({x_below, -3, 0}, {x_above, 3, 0.1});
     const auto [p, index, dimension] = domain.construct_intersection_object()(segment);
@@ -79,7 +78,7 @@ TEST(Delaunay_surface, a_surface_is_found_on_a_segment_that_meets_a_pole_as_well
 TEST(Delaunay_surface, where_CGAL_gives_up_the_whole_box_is_undecided) {
   const CGAL::Bbox_3 box(-4, -4, -4, 4, 4, 4);
   const auto surface =
-      delaunay_surface(make_analytic_traits<Kernel>(Expression_3("z-x*y*sin(x*y)"), box), {30, 0.1, 0});
+      delaunay_surface(make_analytic_traits<Kernel>(Expression_3("z-x*y*sin(x*y)"), box), {.radius = 0.1});
   const bool gives_up = CGAL_VERSION_NR < 1060200000; // 6.2 does not
   EXPECT_EQ(surface.is_certified, !gives_up);
   EXPECT_EQ(std::count(surface.undecided_boxes.begin(), surface.undecided_boxes.end(), box), gives_up ? 1 : 0);
@@ -110,10 +109,10 @@ TEST(Delaunay_surface, what_is_certified_has_the_topology_that_marching_cubes_fi
     for (double& s : side) s = uniform(1, 1.7);
     const CGAL::Bbox_3 box(-side[0], -side[1], -side[2], side[3], side[4], side[5]);
     const auto traits = make_analytic_traits<Kernel>(Expression_3(waves.str()), box);
-    const auto surface = delaunay_surface(traits, {30, Clip_domain_3(box).diagonal() / 60, 0});
+    const auto surface = delaunay_surface(traits, {.radius = Clip_domain_3(box).diagonal() / 60});
     if (!surface.is_certified) continue;
     ++certified;
-    const auto fine = marching_cubes(traits, parameters::number_of_nodes(100));
+    const auto fine = marching_cubes(traits, {.resolution = 100});
     const auto expected = mesh_topology(fine.triangles, fine.points.size()), found = topology(surface);
     EXPECT_TRUE(found.is_manifold) << waves.str();
     EXPECT_EQ(found.components, expected.components) << waves.str();
@@ -134,7 +133,7 @@ struct Cone {
 
 template <class Function>
 Surface singular_surface(const Function& f) {
-  const auto surface = delaunay_surface(traits_of(f), {30, 0.2, 0});
+  const auto surface = delaunay_surface(traits_of(f), {.radius = 0.2});
   EXPECT_FALSE(surface.is_certified);
   EXPECT_FALSE(surface.undecided_boxes.empty());
   EXPECT_GT(surface.triangles.size(), 100u);

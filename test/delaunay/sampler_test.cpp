@@ -58,7 +58,7 @@ struct Marching_cubes_sampler {
 struct Delaunay_sampler {
   template <class Traits>
   static Isosurface_3<Kernel> sample(const Traits& traits) {
-    return delaunay_surface(traits, {30, diagonal(traits) / 70, 0});
+    return delaunay_surface(traits, {.radius = diagonal(traits) / 70});
   }
   static constexpr double precision = 1e-14;
 };

@@ -42,6 +42,6 @@ extern Mesh::Property_map<Vertex, Kernel::Vector_3> normals;
 extern const std::span<const float> values;
 extern const std::size_t nx, ny, nz;
 extern const equiaffine::Volume_3<Kernel> volume;
-extern const double isovalue, smoothing;
-extern const equiaffine::Sample_noise noise;
+extern const double isovalue, level;
+extern const equiaffine::Smoothing_decision decision;
 extern const equiaffine::Sampled_function_traits_3<Kernel> function;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/Without_bounds.h"
 #include <equiaffine/attributes/attributes.h>
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/Progress_observer.h>
@@ -78,18 +79,18 @@ void expect_same_on_all_instruction_sets(const Function& function) {
 constexpr std::array<std::size_t, 3> nodes = {33, 31, 32};
 
 Isosurface_3<Kernel> surface_of(const Level_set_traits_3<Formula>& level_set, Instruction_set set) {
-  return vectorized::marching_cubes(level_set, nodes, Vertex_position::PROJECTED, set);
+  return vectorized::marching_cubes(level_set, {.resolution = nodes}, set);
 }
 
 Isosurface_3<Kernel> surface_of(const Level_set_traits_3<Spline>& level_set, Instruction_set set) {
-  return vectorized::marching_cubes(level_set, Vertex_position::PROJECTED, set);
+  return vectorized::marching_cubes(level_set, {}, set);
 }
 
 /// Expects each instruction set to give the surface that Marching Cubes of the library gives at all nodes.
 template <class Function>
 void expect_same_surface_on_all_instruction_sets(const Function& function) {
   const Level_set_traits_3<Function> level_set(function, 0.1);
-  const Isosurface_3<Kernel> expected = marching_cubes(level_set, parameters::number_of_nodes(nodes));
+  const Isosurface_3<Kernel> expected = marching_cubes(Without_bounds(level_set), {.resolution = nodes});
   ASSERT_GT(expected.triangles.size(), 100u);
   const double distance = max_distance_to_surface(level_set, std::span(expected.points), expected.vertex_status);
   for (const Instruction_set set : instruction_sets()) {
@@ -135,19 +136,18 @@ TEST(vectorized, the_first_instruction_set_is_that_of_any_processor) {
 TEST(vectorized, an_instruction_set_that_the_processor_does_not_have_is_refused) {
   const Level_set_traits_3<Formula> sphere(
       Formula(make_analytic_traits<Kernel>(Expression_3("x^2 + y^2 + z^2 - 0.5"), box)), 0.);
-  EXPECT_THROW(vectorized::marching_cubes(sphere, nodes, Vertex_position::PROJECTED, Instruction_set(99)),
-               std::invalid_argument);
+  EXPECT_THROW(vectorized::marching_cubes(sphere, {.resolution = nodes}, Instruction_set(99)), std::invalid_argument);
 }
 
 TEST(vectorized, an_exception_leaves_the_code_for_the_processor) {
   const Level_set_traits_3<Formula> sphere(
       Formula(make_analytic_traits<Kernel>(Expression_3("x^2 + y^2 + z^2 - 0.5"), box)), 0.);
-  EXPECT_THROW(vectorized::marching_cubes(sphere, {1, 2, 2}), std::invalid_argument);
+  EXPECT_THROW(vectorized::marching_cubes(sphere, {.resolution = {1, 2, 2}}), Input_error);
   const std::size_t many = std::size_t(1) << 40;
-  EXPECT_THROW(vectorized::marching_cubes(sphere, {many, many, many}), Input_error);
+  EXPECT_THROW(vectorized::marching_cubes(sphere, {.resolution = many}), Input_error);
   struct Ended {};
   const Progress_observer observer([](const Progress_observer::Stage&) { throw Ended(); }, std::chrono::seconds(0));
-  EXPECT_THROW(vectorized::marching_cubes(sphere, nodes), Ended);
+  EXPECT_THROW(vectorized::marching_cubes(sphere, {.resolution = nodes}), Ended);
 }
 
 #ifdef EQUIAFFINE_OBJECTS_FOR_PROCESSORS

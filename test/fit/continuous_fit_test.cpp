@@ -17,7 +17,6 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
-#include <optional>
 #include <random>
 #include <set>
 #include <vector>
@@ -154,15 +153,16 @@ void expect_continuous(const Mesh& mesh, const Fit& fit) {
 }
 
 TEST(Continuous_fit, the_value_does_not_jump) {
-  for (const Mesh& mesh : {torus(24), square_ring(24), square_ring(24, 0)}) expect_continuous(mesh, Fit(mesh));
-  for (const Mesh& mesh : cornered_solids(8)) expect_continuous(mesh, Fit(mesh));
+  for (const Mesh& mesh : {torus(24), square_ring(24), square_ring(24, 0)})
+    expect_continuous(mesh, Fit(mesh, {.scale = 0}));
+  for (const Mesh& mesh : cornered_solids(8)) expect_continuous(mesh, Fit(mesh, {.scale = 0}));
   const Mesh many_sides = pyramid(12, 10);
-  expect_continuous(many_sides, Fit(many_sides, equiaffine::parameters::feature_angle(15)));
+  expect_continuous(many_sides, Fit(many_sides, {.scale = 0, .feature_angle = 15}));
 }
 
 TEST(Creases, a_solid_with_corners_has_its_own_distance_as_the_value) {
   for (const Mesh& mesh : cornered_solids(8)) {
-    const Fit fit(mesh);
+    const Fit fit(mesh, {.scale = 0});
     for (const auto v : mesh.vertices()) EXPECT_NEAR(fit.value(mesh.point(v)), 0, 1e-9) << mesh.point(v);
     for (const auto& [center, normal] : faces_of(mesh))
       for (const double height : {-.05, .05}) EXPECT_NEAR(fit.value(center + height * normal), height, .02) << center;
@@ -171,7 +171,7 @@ TEST(Creases, a_solid_with_corners_has_its_own_distance_as_the_value) {
 
 TEST(Continuous_fit, the_sign_tells_the_sides_and_there_are_derivatives_at_every_face) {
   for (const Mesh& mesh : {torus(24), square_ring(24), square_ring(24, 0)}) {
-    const Fit fit(mesh);
+    const Fit fit(mesh, {.scale = 0});
     for (const auto& [center, normal] : faces_of(mesh)) {
       const double height = fit.spacing(center) / 2;
       EXPECT_GT(fit.value(center + height * normal), 0) << center;
@@ -183,7 +183,7 @@ TEST(Continuous_fit, the_sign_tells_the_sides_and_there_are_derivatives_at_every
 
 TEST(Continuous_fit, expansions_of_smooth_surfaces_have_all_orders_and_the_value) {
   const Mesh mesh = torus(24);
-  const Fit fit(mesh);
+  const Fit fit(mesh, {.scale = 0});
   for (const auto& [center, normal] : faces_of(mesh)) {
     EXPECT_NEAR(fit.taylor(center).value(), fit.value(center), 1e-14);
     EXPECT_NEAR(fit.first_order(center).value(), fit.value(center), 1e-14);
@@ -196,9 +196,9 @@ TEST(Continuous_fit_long, the_surface_is_whole_where_the_density_of_the_data_jum
     const double u = 2 * std::numbers::pi * part, v = 2 * std::numbers::pi * t, r = 1 + .4 * std::cos(v);
     return Point_3(r * std::cos(u), r * std::sin(u), .4 * std::sin(v));
   });
-  const Fit fit(mesh);
-  const auto surface = equiaffine::marching_cubes(fit.in_box(CGAL::Bbox_3(-1.7, -1.7, -.7, 1.7, 1.7, .7)),
-                                                  equiaffine::parameters::number_of_nodes(129));
+  const Fit fit(mesh, {.scale = 0});
+  const auto surface =
+      equiaffine::marching_cubes(fit.in_box(CGAL::Bbox_3(-1.7, -1.7, -.7, 1.7, 1.7, .7)), {.resolution = 129});
   Mesh whole = equiaffine::to_surface_mesh(surface);
   CGAL::Polygon_mesh_processing::keep_largest_connected_components(whole, 1);
   EXPECT_TRUE(CGAL::is_closed(whole));
@@ -222,14 +222,14 @@ TEST(Creases, they_are_there_in_every_unit) {
   for (const double unit : {1e-60, 1e60}) {
     Mesh mesh = cornered_solids(8).front();
     for (const auto v : mesh.vertices()) mesh.point(v) = CGAL::ORIGIN + unit * (mesh.point(v) - CGAL::ORIGIN);
-    const Fit fit(mesh);
+    const Fit fit(mesh, {.scale = 0});
     for (const auto v : mesh.vertices()) EXPECT_NEAR(fit.value(mesh.point(v)) / unit, 0, 1e-9) << mesh.point(v);
   }
 }
 
 TEST(Creases, each_side_has_its_own_curvature_and_planes_and_cylinders_are_parabolic) {
   const Mesh mesh = creased_ring();
-  const auto structures = equiaffine::fitted_structures(mesh);
+  const auto structures = equiaffine::fitted_structures(mesh, {.scale = 0});
   ASSERT_EQ(structures.size(), mesh.number_of_vertices());
   std::size_t parabolic = 0;
   for (const auto v : mesh.vertices()) {
@@ -250,9 +250,9 @@ double part_on_zero_set(const Mesh& mesh, const Fit& fit) {
 
 TEST(Creases, the_fit_ends_at_them_as_the_data_do) {
   const Mesh mesh = creased_ring();
-  const Fit fit(mesh);
+  const Fit fit(mesh, {.scale = 0});
   EXPECT_GT(part_on_zero_set(mesh, fit), .99);
-  EXPECT_LT(part_on_zero_set(mesh, Fit(mesh, equiaffine::parameters::feature_angle(std::nullopt))), .9);
+  EXPECT_LT(part_on_zero_set(mesh, Fit(mesh, {.scale = 0, .feature_angle = 180})), .9);
   double covered = 0;
   for (const auto& [center, normal] : faces_of(mesh)) {
     const auto [structure, error, noise, detail, scale, is_at_scale, deviation] = fit.structure(center);
@@ -265,7 +265,7 @@ TEST(Creases, sharp_edges_without_followers_are_none) {
   Mesh mesh = torus(24);
   const auto v = *mesh.vertices().begin();
   mesh.point(v) = mesh.point(v) + .2 * (mesh.point(v) - CGAL::ORIGIN);
-  const Fit fit(mesh), round(mesh, equiaffine::parameters::feature_angle(std::nullopt));
+  const Fit fit(mesh, {.scale = 0}), round(mesh, {.scale = 0, .feature_angle = 180});
   for (const auto& [center, normal] : faces_of(mesh)) EXPECT_EQ(fit.value(center), round.value(center));
 }
 

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -25,12 +24,12 @@ TEST(Fitted_structures, what_every_degree_leaves_out_is_seen_in_smaller_balls) {
   const auto bumps = make_analytic_traits<Fit_kernel>(
       Expression_3("exp(-(x-.5)^2-y^2-z^2)+exp(-(x+.6)^2-(y-.4)^2-z^2)+exp(-x^2-(y+.7)^2-(z-.3)^2)-.45"),
       CGAL::Bbox_3(-2.5, -2.5, -2.5, 2.5, 2.5, 2.5));
-  const Fit_mesh exact = to_surface_mesh(marching_cubes(bumps, parameters::number_of_nodes(26)));
+  const Fit_mesh exact = to_surface_mesh(marching_cubes(bumps, {.resolution = 26}));
   const auto points = points_of(exact);
   for (const auto& [noise, least] : {std::pair(0.01, 0.8), std::pair(0.05, 0.9)}) { // without: .61 and .69
     Fit_mesh mesh = exact;
     add_noise(mesh, noise * mean_edge(mesh));
-    const auto fits = fitted_structures<CGAL::Parallel_if_available_tag>(mesh);
+    const auto fits = fitted_structures<CGAL::Parallel_if_available_tag>(mesh, {.scale = 0});
     const auto K_covered = part_within(
         fits.size(),
         [&](std::size_t i) {
@@ -59,8 +58,8 @@ TEST(Fitted_structures, outliers_have_no_curvature_and_spoil_none) {
     mesh.point(Fit_mesh::Vertex_index(unsigned(i))) = points[i] + way * (3 * edge);
   }
   for (const bool has_faces : {true, false}) {
-    const auto fits = has_faces ? fitted_structures<CGAL::Parallel_if_available_tag>(mesh)
-                                : fitted_structures<CGAL::Parallel_if_available_tag>(points_of(mesh));
+    const auto fits = has_faces ? fitted_structures<CGAL::Parallel_if_available_tag>(mesh, {.scale = 0})
+                                : fitted_structures<CGAL::Parallel_if_available_tag>(points_of(mesh), {.scale = 0});
     double fitted = 0, moved = 0;
     for (std::size_t i = 0; i < fits.size(); ++i) {
       const bool has_fit = fits[i].structure.status != Point_status::OUTSIDE;
@@ -73,8 +72,8 @@ TEST(Fitted_structures, outliers_have_no_curvature_and_spoil_none) {
       EXPECT_LT(fitted, 0.1 * moved);
     }
   }
-  const auto without = fitted_structures<CGAL::Parallel_if_available_tag>(exact),
-             with = fitted_structures<CGAL::Parallel_if_available_tag>(mesh);
+  const auto without = fitted_structures<CGAL::Parallel_if_available_tag>(exact, {.scale = 0}),
+             with = fitted_structures<CGAL::Parallel_if_available_tag>(mesh, {.scale = 0});
   std::vector<double> differences;
   for (std::size_t i = 0; i < with.size(); ++i)
     if (!is_moved[i])
@@ -113,7 +112,7 @@ TEST(Fitted_structures, long_triangles_elsewhere_do_not_spoil_a_hemisphere) {
       mesh.add_face(circles[r][next], circles[r + 1][next], circles[r + 1][here]);
     }
   }
-  const auto fits = fitted_structures<CGAL::Parallel_if_available_tag>(mesh, parameters::scale(std::nullopt));
+  const auto fits = fitted_structures<CGAL::Parallel_if_available_tag>(mesh);
   double within = 0;
   const std::size_t nose = 1 + around * rings, tip_part = 1 + around * (rings / 2 - 2);
   for (std::size_t i = 0; i < nose; ++i) {

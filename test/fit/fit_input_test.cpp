@@ -2,6 +2,7 @@
 // What fits do with data that they were not made for: a status or an exception, and no number out of nowhere.
 #include "fit/fit_input.h"
 #include "support/fit_data.h"
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/fit/Fitted_function_traits_3.h>
 #include <equiaffine/fit/fitted_structures.h>
 
@@ -64,8 +65,8 @@ TEST(Fit_input, points_with_coordinates_that_are_no_numbers_are_refused) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, inf}) {
     const std::vector<Point_3> points = {{0, 0, 0}, {1, bad, 0}};
-    EXPECT_THROW(fitted_structures(points), std::invalid_argument);
-    EXPECT_THROW((Fitted_function_traits_3<Fit_kernel>(points)), std::invalid_argument);
+    EXPECT_THROW(fitted_structures(points, {.scale = 0}), std::invalid_argument);
+    EXPECT_THROW((Fitted_function_traits_3<Fit_kernel>(points, {.scale = 0})), std::invalid_argument);
   }
 }
 
@@ -74,8 +75,8 @@ TEST(Fit_input, points_in_units_that_leave_double_precision_are_refused) {
     std::vector<Point_3> points;
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j) points.emplace_back(unit * i, unit * j, unit * bowl(i, j));
-    EXPECT_THROW(fitted_structures(points), std::invalid_argument) << unit;
-    EXPECT_NO_THROW((Fitted_function_traits_3<Fit_kernel>(points))) << unit;
+    EXPECT_THROW(fitted_structures(points, {.scale = 0}), std::invalid_argument) << unit;
+    EXPECT_NO_THROW((Fitted_function_traits_3<Fit_kernel>(points, {.scale = 0}))) << unit;
   }
 }
 
@@ -88,11 +89,13 @@ TEST(Fit_input, normals_of_vertices_that_agree_with_the_faces_are_those_of_the_d
     normals[v] = Fit_kernel::Vector_3(-2 * p.x() - 0.2 * p.x() * p.y(), -p.y() - 0.1 * p.x() * p.x(), 1);
   }
   normals[Vertex(3)] = -normals[Vertex(3)];
+  constexpr double feature_angle = 60;
   const auto by_faces =
-      internal::fit_input_of_mesh(internal::fit_data_of_graph(mesh, internal::joined_parameters())).data;
+      internal::fit_input_of_mesh(internal::fit_data_of_graph(mesh, internal::joined_parameters()), feature_angle).data;
   const auto given =
       internal::fit_input_of_mesh(
-          internal::fit_data_of_graph(mesh, internal::joined_parameters(parameters::vertex_normal_map(normals))))
+          internal::fit_data_of_graph(mesh, internal::joined_parameters(parameters::vertex_normal_map(normals))),
+          feature_angle)
           .data;
   for (const Vertex v : mesh.vertices()) {
     const auto& n = normals[v];
@@ -103,22 +106,30 @@ TEST(Fit_input, normals_of_vertices_that_agree_with_the_faces_are_those_of_the_d
   }
 }
 
-TEST(Fit_input, parameters_that_make_no_sense_are_refused) {
+TEST(Fit_input, options_that_make_no_sense_are_refused) {
   const Fit_mesh mesh = height_field(5, bowl);
-  EXPECT_THROW(fitted_structures(mesh, parameters::scale(-1)), std::invalid_argument);
-  EXPECT_THROW(fitted_structures(mesh, parameters::scale(std::numeric_limits<double>::quiet_NaN())),
-               std::invalid_argument);
-  EXPECT_THROW(fitted_structures(mesh, parameters::noise(-1)), std::invalid_argument);
-  EXPECT_THROW(fitted_structures(mesh, parameters::degree(7)), std::invalid_argument);
+  const auto expect_refused = [&](const Fit_options& options, const std::string& field) {
+    try {
+      fitted_structures(mesh, options);
+      ADD_FAILURE() << field;
+    } catch (const Input_error& error) {
+      EXPECT_EQ(error.field(), field);
+    }
+  };
+  expect_refused({.scale = -1}, "scale");
+  expect_refused({.scale = std::numeric_limits<double>::quiet_NaN()}, "scale");
+  expect_refused({.noise = -1}, "noise");
+  expect_refused({.degree = 7}, "degree");
+  expect_refused({.feature_angle = 181}, "feature_angle");
 }
 
 TEST(Fit_input, fewer_points_than_a_fit_needs_have_no_structure) {
-  EXPECT_TRUE(fitted_structures(std::vector<Point_3>()).empty());
-  EXPECT_TRUE(fitted_structures(Fit_mesh()).empty());
+  EXPECT_TRUE(fitted_structures(std::vector<Point_3>(), {.scale = 0}).empty());
+  EXPECT_TRUE(fitted_structures(Fit_mesh(), {.scale = 0}).empty());
   for (const std::size_t n : {1u, 2u, 3u}) {
     const Fit_mesh mesh = height_field(n + 1, bowl);
-    for (const auto& s : fitted_structures(mesh)) EXPECT_EQ(s.structure.status, Point_status::OUTSIDE);
-    const Fitted_function_traits_3<Fit_kernel> traits(mesh);
+    for (const auto& s : fitted_structures(mesh, {.scale = 0})) EXPECT_EQ(s.structure.status, Point_status::OUTSIDE);
+    const Fitted_function_traits_3<Fit_kernel> traits(mesh, {.scale = 0});
     EXPECT_TRUE(std::isnan(traits.value({0, 0, 0})));
   }
 }
@@ -135,7 +146,8 @@ void expect_parabolic(const std::vector<Fitted_structure_3<double>>& structures)
 TEST(Fit_input_long, points_in_a_plane_are_parabolic) {
   for (const double slope : {0., 1.}) {
     const Fit_mesh mesh = height_field(20, [slope](double x, double y) { return slope * (2 * x - y); });
-    for (const auto& structures : {fitted_structures(mesh), fitted_structures(points_of(mesh))}) {
+    for (const auto& structures :
+         {fitted_structures(mesh, {.scale = 0}), fitted_structures(points_of(mesh), {.scale = 0})}) {
       expect_parabolic(structures);
       for (const auto& s : structures) {
         EXPECT_NEAR(s.structure.euclidean.gaussian_curvature, 0, 1e-6);
@@ -151,7 +163,7 @@ TEST(Fit_input, a_cylinder_is_parabolic) {
     const Point_3 p = mesh.point(v);
     mesh.point(v) = Point_3(std::sin(p.x()), p.y(), std::cos(p.x()));
   }
-  const auto exact = fitted_structures(mesh);
+  const auto exact = fitted_structures(mesh, {.scale = 0});
   std::size_t known_parabolic = 0;
   for (const auto& s : exact) {
     known_parabolic += s.structure.status == Point_status::PARABOLIC;
@@ -161,7 +173,7 @@ TEST(Fit_input, a_cylinder_is_parabolic) {
   EXPECT_NEAR(std::abs(exact[210].structure.euclidean.mean_curvature), 0.5, 1e-3); // in the middle
   add_noise(mesh, 0.001 * mean_edge(mesh));
   std::size_t parabolic = 0, unknown = 0;
-  for (const auto& s : fitted_structures(mesh)) {
+  for (const auto& s : fitted_structures(mesh, {.scale = 0})) {
     parabolic += s.structure.status == Point_status::PARABOLIC;
     unknown += s.error.affine_gaussian_curvature >= std::abs(s.structure.affine.gaussian_curvature);
   }
@@ -172,26 +184,26 @@ TEST(Fit_input, a_cylinder_is_parabolic) {
 TEST(Fit_input, points_on_a_line_have_no_structure) {
   std::vector<Point_3> line;
   for (int i = 0; i < 200; ++i) line.emplace_back(0.01 * i, 0.02 * i, -0.03 * i);
-  for (const auto& s : fitted_structures(line)) EXPECT_FALSE(has_numbers(s));
+  for (const auto& s : fitted_structures(line, {.scale = 0})) EXPECT_FALSE(has_numbers(s));
 }
 
 TEST(Fit_input, many_points_in_one_place_count_once) {
   std::vector<Point_3> points = points_of(height_field(20, bowl));
-  const auto before = fitted_structures(points);
+  const auto before = fitted_structures(points, {.scale = 0});
   points.insert(points.end(), 100000, points[210]);
-  const auto after = fitted_structures(points);
+  const auto after = fitted_structures(points, {.scale = 0});
   ASSERT_EQ(after.size(), points.size());
   EXPECT_EQ(after[100].structure.affine.gaussian_curvature, before[100].structure.affine.gaussian_curvature);
   EXPECT_EQ(after.back().structure.affine.gaussian_curvature, before[210].structure.affine.gaussian_curvature);
-  for (const auto& s : fitted_structures(std::vector<Point_3>(100000, Point_3(1, 2, 3))))
+  for (const auto& s : fitted_structures(std::vector<Point_3>(100000, Point_3(1, 2, 3)), {.scale = 0}))
     EXPECT_EQ(s.structure.status, Point_status::OUTSIDE);
 }
 
 TEST(Fit_input, a_vertex_without_faces_has_no_structure_and_the_others_do_not_notice) {
   Fit_mesh mesh = height_field(20, bowl);
-  const auto before = fitted_structures(mesh);
+  const auto before = fitted_structures(mesh, {.scale = 0});
   mesh.add_vertex(Point_3(0, 0, 0.01));
-  const auto after = fitted_structures(mesh);
+  const auto after = fitted_structures(mesh, {.scale = 0});
   EXPECT_EQ(after.back().structure.status, Point_status::OUTSIDE);
   EXPECT_NEAR(after[210].structure.affine.gaussian_curvature, before[210].structure.affine.gaussian_curvature, 1e-6);
 }
@@ -205,9 +217,10 @@ TEST(Fit_input, given_normals_decide_the_side_and_unoriented_ones_are_turned_to_
   }
   const auto maps = parameters::point_map(CGAL::First_of_pair_property_map<std::pair<Point_3, Vector_3>>())
                         .normal_map(CGAL::Second_of_pair_property_map<std::pair<Point_3, Vector_3>>());
-  const auto down = fitted_structures(points, maps);
+  const auto down = fitted_structures(points, {.scale = 0}, maps);
   for (std::size_t i = 0; i < points.size(); i += 3) points[i].second = -points[i].second;
-  const auto turned = fitted_structures(points, maps.normal_orientation(Normal_orientation::UNORIENTED));
+  const auto turned =
+      fitted_structures(points, {.scale = 0, .normal_orientation = Normal_orientation::UNORIENTED}, maps);
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_LT(down[i].structure.euclidean.normal[2], 0);
     EXPECT_EQ(turned[i].structure.status, down[i].structure.status);
@@ -225,7 +238,9 @@ TEST(Fit_input, normals_that_contradict_give_no_number_out_of_nowhere) {
   for (const auto& p : points_of(mesh)) points.emplace_back(p, Vector_3(0, 0, points.size() % 2 == 0 ? 1 : -1));
   const auto maps = parameters::point_map(CGAL::First_of_pair_property_map<std::pair<Point_3, Vector_3>>())
                         .normal_map(CGAL::Second_of_pair_property_map<std::pair<Point_3, Vector_3>>());
-  EXPECT_GE(part_that_agrees(fitted_structures(points, maps), fitted_structures(mesh), points.size()), 0.93);
+  EXPECT_GE(part_that_agrees(fitted_structures(points, {.scale = 0}, maps), fitted_structures(mesh, {.scale = 0}),
+                             points.size()),
+            0.93);
 }
 
 TEST(Fit_input, close_sheets_of_a_mesh_have_the_curvatures_that_each_has_alone) {
@@ -240,10 +255,10 @@ TEST(Fit_input, close_sheets_of_a_mesh_have_the_curvatures_that_each_has_alone) 
     for (const auto v : upper.vertices_around_face(upper.halfedge(f))) corners.push_back(moved[v]);
     both.add_face(corners[0], corners[2], corners[1]);
   }
-  const auto alone = fitted_structures(single), together = fitted_structures(both);
+  const auto alone = fitted_structures(single, {.scale = 0}), together = fitted_structures(both, {.scale = 0});
   EXPECT_GE(part_that_agrees(together, alone, alone.size()), 0.93);
   // The blend has both sheets, with opposite normals.
-  const Fitted_function_traits_3<Fit_kernel> traits(both);
+  const Fitted_function_traits_3<Fit_kernel> traits(both, {.scale = 0});
   std::size_t close = 0;
   for (const auto v : single.vertices()) {
     EXPECT_GT(traits.first_order(single.point(v)).coefficients()[3], 0);
@@ -256,7 +271,7 @@ TEST(Fit_input, close_sheets_of_a_mesh_have_the_curvatures_that_each_has_alone) 
 
 TEST(Fit_input, at_a_crease_the_error_says_that_curvatures_mean_nothing) {
   const Fit_mesh mesh = height_field(31, [](double x, double y) { return std::abs(x) + 0.3 * y * y + 0.2 * x * x; });
-  const auto structures = fitted_structures(mesh);
+  const auto structures = fitted_structures(mesh, {.scale = 0});
   for (const auto v : mesh.vertices()) {
     const auto& s = structures[v];
     if (std::abs(mesh.point(v).x()) > 0.03 || !has_numbers(s)) continue;
@@ -268,7 +283,7 @@ TEST(Fit_input, at_a_crease_the_error_says_that_curvatures_mean_nothing) {
 TEST(Fit_input, a_hole_stays_a_hole_of_the_blend) {
   std::vector<Point_3> points = points_of(height_field(41, bowl));
   std::erase_if(points, [](const Point_3& p) { return std::hypot(p.x(), p.y()) < 0.4; });
-  const Fitted_function_traits_3<Fit_kernel> traits(points);
+  const Fitted_function_traits_3<Fit_kernel> traits(points, {.scale = 0});
   EXPECT_TRUE(std::isnan(traits.value({0, 0, 0})));
   for (const auto& p : points) EXPECT_NEAR(traits.value(p), 0, 1e-4);
 }

@@ -63,7 +63,7 @@ std::vector<Fitted_structure_3<double>> of_mesh(const Ellipsoid& ellipsoid) {
   for (const auto& p : ellipsoid.points) mesh.add_vertex(p);
   for (const auto& [a, b, c] : ellipsoid.triangles)
     mesh.add_face(Vertex(unsigned(a)), Vertex(unsigned(b)), Vertex(unsigned(c)));
-  return fitted_structures(mesh);
+  return fitted_structures(mesh, {.scale = 0});
 }
 
 void expect_regular_and_outwards(const std::vector<Fitted_structure_3<double>>& structures) {
@@ -84,7 +84,7 @@ void expect_same(const std::vector<Fitted_structure_3<double>>& a, const std::ve
 
 TEST(Fitted_soup, a_mesh_and_its_points_and_triangles_get_the_same_numbers) {
   const Ellipsoid ellipsoid;
-  const auto structures = fitted_structures(ellipsoid.points, ellipsoid.triangles);
+  const auto structures = fitted_structures(ellipsoid.points, ellipsoid.triangles, {.scale = 0});
   expect_same(structures, of_mesh(ellipsoid));
   expect_regular_and_outwards(structures);
 }
@@ -93,7 +93,7 @@ TEST(Fitted_soup, triangles_whose_orientations_contradict_are_turned_like_the_fi
   Ellipsoid ellipsoid;
   for (std::size_t t = 1; t < ellipsoid.triangles.size(); t += 3)
     std::swap(ellipsoid.triangles[t][0], ellipsoid.triangles[t][1]);
-  expect_regular_and_outwards(fitted_structures(ellipsoid.points, ellipsoid.triangles));
+  expect_regular_and_outwards(fitted_structures(ellipsoid.points, ellipsoid.triangles, {.scale = 0}));
 }
 
 TEST(Fitted_soup, equal_points_and_triangles_count_once_and_a_point_without_faces_is_outside) {
@@ -104,7 +104,7 @@ TEST(Fitted_soup, equal_points_and_triangles_count_once_and_a_point_without_face
   ellipsoid.triangles.push_back(ellipsoid.triangles.back());
   ellipsoid.triangles.push_back({0, 0, 1});
   ellipsoid.points.emplace_back(0, 0, 0.5);
-  auto structures = fitted_structures(ellipsoid.points, ellipsoid.triangles);
+  auto structures = fitted_structures(ellipsoid.points, ellipsoid.triangles, {.scale = 0});
   ASSERT_EQ(structures.size(), 2 * size + 1);
   EXPECT_EQ(structures.back().structure.status, Point_status::OUTSIDE);
   structures.pop_back();
@@ -115,7 +115,7 @@ TEST(Fitted_soup, a_third_triangle_at_an_edge_does_no_harm) {
   Ellipsoid ellipsoid;
   ellipsoid.points.emplace_back(0, 0, 0);
   ellipsoid.triangles.push_back({0, 1, ellipsoid.points.size() - 1});
-  auto structures = fitted_structures(ellipsoid.points, ellipsoid.triangles);
+  auto structures = fitted_structures(ellipsoid.points, ellipsoid.triangles, {.scale = 0});
   EXPECT_EQ(structures.back().structure.status, Point_status::OUTSIDE);
   structures.pop_back();
   expect_regular_and_outwards(structures);
@@ -123,9 +123,9 @@ TEST(Fitted_soup, a_third_triangle_at_an_edge_does_no_harm) {
 
 TEST(Fitted_soup, against_gives_the_structure_of_the_other_side) {
   const Ellipsoid ellipsoid;
-  const auto along = fitted_structures(ellipsoid.points, ellipsoid.triangles);
-  const auto against = fitted_structures(ellipsoid.points, ellipsoid.triangles,
-                                         parameters::orientation(Orientation_of_level_set::AGAINST_GRADIENT));
+  const auto along = fitted_structures(ellipsoid.points, ellipsoid.triangles, {.scale = 0});
+  const auto against = fitted_structures(ellipsoid.points, ellipsoid.triangles, {.scale = 0},
+                                         Orientation_of_level_set::AGAINST_GRADIENT);
   for (std::size_t i = 0; i < along.size(); ++i) {
     const auto &a = along[i].structure, &b = against[i].structure;
     for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_EQ(b.euclidean.normal[axis], -a.euclidean.normal[axis]);
@@ -133,12 +133,6 @@ TEST(Fitted_soup, against_gives_the_structure_of_the_other_side) {
     EXPECT_NEAR(b.affine.gaussian_curvature, a.affine.gaussian_curvature, 1e-12);
     EXPECT_EQ(along[i].scale, against[i].scale);
   }
-}
-
-TEST(Fitted_soup, parameters_without_a_value_are_those_that_are_not_given) {
-  const Ellipsoid ellipsoid;
-  expect_same(fitted_structures(ellipsoid.points, ellipsoid.triangles, parameters::scale({}).noise({}).degree({})),
-              fitted_structures(ellipsoid.points, ellipsoid.triangles));
 }
 
 TEST(Fitted_soup, the_deviation_is_that_of_the_noise_in_the_unit_of_the_data) {
@@ -149,7 +143,7 @@ TEST(Fitted_soup, the_deviation_is_that_of_the_noise_in_the_unit_of_the_data) {
     const double factor = unit * (1 + ((i * 2654435761U >> 7) % 2 == 0 ? deviation : -deviation));
     ellipsoid.points[i] = {factor * p.x(), factor * p.y(), factor * p.z()};
   }
-  auto structures = fitted_structures(ellipsoid.points, ellipsoid.triangles);
+  auto structures = fitted_structures(ellipsoid.points, ellipsoid.triangles, {.scale = 0});
   const auto median = structures.begin() + std::ptrdiff_t(structures.size() / 2);
   std::nth_element(structures.begin(), median, structures.end(),
                    [](const auto& a, const auto& b) { return a.deviation < b.deviation; });
@@ -160,18 +154,18 @@ TEST(Fitted_soup, the_deviation_is_that_of_the_noise_in_the_unit_of_the_data) {
 TEST(Fitted_soup, polygons_have_positions_of_points) {
   const Ellipsoid ellipsoid;
   const std::vector<std::array<std::size_t, 3>> triangles = {{0, 1, ellipsoid.points.size()}};
-  EXPECT_THROW(fitted_structures(ellipsoid.points, triangles), std::invalid_argument);
+  EXPECT_THROW(fitted_structures(ellipsoid.points, triangles, {.scale = 0}), std::invalid_argument);
   std::vector<Point_3> points = ellipsoid.points;
   points[3] = {0, 0, std::numeric_limits<double>::quiet_NaN()};
-  EXPECT_THROW(fitted_structures(points, ellipsoid.triangles), std::invalid_argument);
+  EXPECT_THROW(fitted_structures(points, ellipsoid.triangles, {.scale = 0}), std::invalid_argument);
 }
 
 TEST(Fitted_soup, nothing_and_little_have_no_fit) {
   EXPECT_TRUE(fitted_structures(std::vector<Point_3>(), std::vector<std::array<int, 3>>()).empty());
   const std::vector<Point_3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  for (const auto& s : fitted_structures(points, std::vector<std::array<int, 3>>{{0, 1, 2}}))
+  for (const auto& s : fitted_structures(points, std::vector<std::array<int, 3>>{{0, 1, 2}}, {.scale = 0}))
     EXPECT_EQ(s.structure.status, Point_status::OUTSIDE);
-  EXPECT_EQ(fitted_structures(points).at(0).structure.status, Point_status::OUTSIDE);
+  EXPECT_EQ(fitted_structures(points, {.scale = 0}).at(0).structure.status, Point_status::OUTSIDE);
 }
 
 } // namespace fitted_soup_test

@@ -20,7 +20,7 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 
 TEST(Move_to_fit, vertices_move_onto_the_fit_and_triangles_stay) {
   Mesh mesh = torus(50);
-  const Fit fit(mesh);
+  const Fit fit(mesh, {.scale = 0});
   for (const auto v : mesh.vertices()) { // off the surface by less than a fifth of an edge
     const Point_3 p = mesh.point(v);
     const double r = std::hypot(p.x(), p.y());
@@ -39,7 +39,7 @@ TEST(Move_to_fit, vertices_move_onto_the_fit_and_triangles_stay) {
 
 TEST(Move_to_fit, vertices_without_a_zero_follow_and_say_so) {
   Mesh mesh = torus(20);
-  const Fit fit(mesh);
+  const Fit fit(mesh, {.scale = 0});
   Mesh apart = mesh;
   for (const auto v : apart.vertices()) // a bump that is no part of the fit
     if (apart.point(v).x() > 1.2) apart.point(v) = apart.point(v) + Kernel::Vector_3(.5, 0, 0);
@@ -56,7 +56,7 @@ TEST(Move_to_fit, vertices_without_a_zero_follow_and_say_so) {
 
 TEST(Move_to_fit, nothing_moves_without_a_fit) {
   Mesh mesh = torus(12);
-  const auto report = move_to_fit(mesh, Fit(Mesh()));
+  const auto report = move_to_fit(mesh, Fit(Mesh(), {.scale = 0}));
   EXPECT_EQ(report.number_of[std::size_t(Fit_outcome::NO_VALUE)], mesh.number_of_vertices());
   EXPECT_EQ(report.largest_move, 0);
 }

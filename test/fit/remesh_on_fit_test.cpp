@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Remeshes on a fit stay whole.
 #include "support/fit_meshes.h"
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/fit/move_to_fit.h>
 #include <equiaffine/fit/remesh_on_fit.h>
 
@@ -23,8 +24,8 @@
 #include <cstddef>
 #include <iterator>
 #include <numbers>
-#include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -36,9 +37,9 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 
 TEST(Remesh_on_fit, a_closed_surface_stays_closed_and_lies_on_the_fit) {
   Mesh mesh = torus(50);
-  const Fit fit(mesh);
+  const Fit fit(mesh, {.scale = 0});
   const auto outcomes = outcomes_of(mesh);
-  const auto report = remesh_on_fit(mesh, fit, parameters::vertex_outcome_map(outcomes).target_edge_length(.06));
+  const auto report = remesh_on_fit(mesh, fit, {.edge_length = .06}, parameters::vertex_outcome_map(outcomes));
   EXPECT_TRUE(CGAL::is_closed(mesh));
   EXPECT_EQ(euler_characteristic(mesh), 0);
   EXPECT_FALSE(pmp::does_self_intersect(mesh));
@@ -64,7 +65,7 @@ Mesh sphere() {
 
 TEST(Remesh_on_fit, a_sphere_is_as_accurate_as_its_fit) {
   Mesh mesh = sphere();
-  const Fit fit(mesh);
+  const Fit fit(mesh, {.scale = 0});
   const auto report = remesh_on_fit(mesh, fit);
   EXPECT_TRUE(CGAL::is_closed(mesh));
   EXPECT_EQ(euler_characteristic(mesh), 2);
@@ -80,7 +81,7 @@ TEST(Remesh_on_fit, borders_stay) {
     const double u = 2 * std::numbers::pi * s, z = 2 * t - 1, r = std::sqrt(1 + z * z);
     return Point_3(r * std::cos(u), r * std::sin(u), z);
   });
-  const Fit fit(mesh);
+  const Fit fit(mesh, {.scale = 0});
   const auto report = remesh_on_fit(mesh, fit);
   EXPECT_EQ(number_of_border_loops(mesh), 2U);
   EXPECT_EQ(euler_characteristic(mesh), 0);
@@ -116,9 +117,9 @@ Mesh cube() {
 TEST(Remesh_on_fit, sharp_edges_stay_edges) {
   Mesh mesh = cube();
   EXPECT_NEAR(length_of_sharp_edges(mesh), 12, 1e-6);
-  const Fit fit(mesh);
+  const Fit fit(mesh, {.scale = 0});
   const auto outcomes = outcomes_of(mesh);
-  const auto report = remesh_on_fit(mesh, fit, parameters::vertex_outcome_map(outcomes));
+  const auto report = remesh_on_fit(mesh, fit, {}, parameters::vertex_outcome_map(outcomes));
   EXPECT_TRUE(CGAL::is_closed(mesh));
   EXPECT_EQ(euler_characteristic(mesh), 2);
   EXPECT_FALSE(pmp::does_self_intersect(mesh));
@@ -155,7 +156,7 @@ Mesh blade() {
 TEST(Remesh_on_fit, detail_that_is_finer_than_the_edges_stays) {
   Mesh mesh = blade();
   const double volume = pmp::volume(mesh);
-  const auto report = remesh_on_fit(mesh, Fit(mesh, parameters::scale(std::nullopt)));
+  const auto report = remesh_on_fit(mesh, Fit(mesh));
   EXPECT_TRUE(CGAL::is_closed(mesh));
   EXPECT_NEAR(pmp::volume(mesh) / volume, 1, .01);
   EXPECT_LT(report.distance_of_data, .03);
@@ -176,7 +177,7 @@ double distance_of(const Mesh& mesh, const Mesh& other) {
 TEST(Remesh_on_fit, the_distances_between_data_and_remesh_are_told) {
   const Mesh data = torus(12);
   Mesh mesh = data;
-  const auto report = remesh_on_fit(mesh, Fit(mesh), parameters::target_edge_length(.1));
+  const auto report = remesh_on_fit(mesh, Fit(mesh, {.scale = 0}), {.edge_length = .1});
   EXPECT_NEAR(report.distance_of_data, distance_of(data, mesh), 1e-12);
   EXPECT_NEAR(report.distance_from_data, distance_of(mesh, data), 1e-12);
 }
@@ -185,7 +186,7 @@ TEST(Remesh_on_fit, vertices_stay_where_the_fit_is_farther_than_half_an_edge) {
   const Mesh data = grid(60, 60, false, false, [](double s, double t) { // waves as long as ten edges
     return Point_3(s, t, .01 * std::sin(12 * std::numbers::pi * s));
   });
-  const Fit fit(data, parameters::scale(.4));
+  const Fit fit(data, {.scale = .4});
   Mesh mesh = data;
   const auto report = move_to_fit(mesh, fit);
   EXPECT_GT(report.number_of[std::size_t(Fit_outcome::NO_ZERO)], mesh.number_of_vertices() / 10);
@@ -199,9 +200,9 @@ TEST(Remesh_on_fit, vertices_stay_where_the_fit_is_farther_than_half_an_edge) {
   }
 }
 
-TEST(Remesh_on_fit, without_an_angle_no_edge_is_kept) {
+TEST(Remesh_on_fit, with_an_angle_of_180_degrees_no_edge_is_kept) {
   Mesh mesh = cube();
-  const auto report = remesh_on_fit(mesh, Fit(mesh), parameters::feature_angle(std::nullopt));
+  const auto report = remesh_on_fit(mesh, Fit(mesh, {.scale = 0}), {.feature_angle = 180});
   EXPECT_EQ(report.number_of[std::size_t(Fit_outcome::ON_FEATURE)], 0U);
   EXPECT_EQ(euler_characteristic(mesh), 2);
   EXPECT_FALSE(pmp::does_self_intersect(mesh));
@@ -215,7 +216,7 @@ TEST(Remesh_on_fit, two_sheets_do_not_cross) {
     });
     mesh.join(sheet);
   }
-  const Fit fit(mesh);
+  const Fit fit(mesh, {.scale = 0});
   remesh_on_fit(mesh, fit);
   EXPECT_EQ(number_of_border_loops(mesh), 2U);
   EXPECT_FALSE(pmp::does_self_intersect(mesh));
@@ -235,7 +236,7 @@ Mesh two_crossing_sheets() {
 
 TEST(Remesh_on_fit, a_mesh_that_crosses_itself_gets_no_other_crossings) {
   Mesh mesh = two_crossing_sheets();
-  const Fit fit(mesh);
+  const Fit fit(mesh, {.scale = 0});
   const auto report = remesh_on_fit(mesh, fit);
   EXPECT_EQ(number_of_border_loops(mesh), 2U);
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> crossings;
@@ -249,8 +250,8 @@ TEST(Remesh_on_fit, a_mesh_that_crosses_itself_gets_no_other_crossings) {
 
 TEST(Remesh_on_fit, edges_longer_than_the_mesh_leave_it_whole) {
   Mesh mesh = torus(12);
-  const Fit fit(mesh);
-  remesh_on_fit(mesh, fit, parameters::target_edge_length(1e300));
+  const Fit fit(mesh, {.scale = 0});
+  remesh_on_fit(mesh, fit, {.edge_length = 1e300});
   EXPECT_TRUE(CGAL::is_closed(mesh));
   EXPECT_EQ(euler_characteristic(mesh), 0);
   EXPECT_FALSE(pmp::does_self_intersect(mesh));
@@ -259,7 +260,7 @@ TEST(Remesh_on_fit, edges_longer_than_the_mesh_leave_it_whole) {
 TEST(Remesh_on_fit, other_meshes_and_point_maps_are_taken) {
   CGAL::Polyhedron_3<Kernel> polyhedron;
   CGAL::copy_face_graph(torus(20), polyhedron);
-  remesh_on_fit(polyhedron, Fit(torus(20)));
+  remesh_on_fit(polyhedron, Fit(torus(20), {.scale = 0}));
   EXPECT_TRUE(CGAL::is_closed(polyhedron));
   EXPECT_EQ(polyhedron.size_of_vertices() + polyhedron.size_of_facets(), polyhedron.size_of_halfedges() / 2);
 
@@ -267,14 +268,14 @@ TEST(Remesh_on_fit, other_meshes_and_point_maps_are_taken) {
   const auto doubled = mesh.add_property_map<Mesh::Vertex_index, Point_3>("v:doubled").first;
   for (const auto v : mesh.vertices()) doubled[v] = CGAL::ORIGIN + 2 * (mesh.point(v) - CGAL::ORIGIN);
   const auto map = parameters::vertex_point_map(doubled);
-  remesh_on_fit(mesh, Fit(mesh, map), map);
+  remesh_on_fit(mesh, Fit(mesh, {.scale = 0}, map), {}, map);
   for (const auto v : mesh.vertices())
     EXPECT_LT(distance_from_torus(CGAL::ORIGIN + (doubled[v] - CGAL::ORIGIN) / 2), 5e-4);
 }
 
 TEST(Remesh_on_fit, threads_give_the_same_numbers) {
   Mesh a = torus(20), b = a;
-  const Fit fit(a);
+  const Fit fit(a, {.scale = 0});
   const auto report_a = remesh_on_fit<CGAL::Sequential_tag>(a, fit);
   const auto report_b = remesh_on_fit<CGAL::Parallel_if_available_tag>(b, fit);
   EXPECT_EQ(report_a.number_of, report_b.number_of);
@@ -284,7 +285,7 @@ TEST(Remesh_on_fit, threads_give_the_same_numbers) {
 }
 
 TEST(Remesh_on_fit, meshes_without_faces_or_area_are_taken) {
-  const Fit fit(torus(12));
+  const Fit fit(torus(12), {.scale = 0});
   Mesh empty, point, line, triangle;
   EXPECT_EQ(remesh_on_fit(empty, fit).number_of_vertices(), 0U);
   point.add_face(point.add_vertex(Point_3(1, 0, 0)), point.add_vertex(Point_3(1, 0, 0)),
@@ -292,7 +293,7 @@ TEST(Remesh_on_fit, meshes_without_faces_or_area_are_taken) {
   EXPECT_EQ(remesh_on_fit(point, fit).number_of_vertices(), 3U);
   line.add_face(line.add_vertex(Point_3(0, 0, 0)), line.add_vertex(Point_3(1, 0, 0)),
                 line.add_vertex(Point_3(2, 0, 0)));
-  EXPECT_EQ(remesh_on_fit(line, fit, parameters::target_edge_length(.001)).number_of_vertices(), 3U);
+  EXPECT_EQ(remesh_on_fit(line, fit, {.edge_length = .001}).number_of_vertices(), 3U);
   triangle.add_face(triangle.add_vertex(Point_3(1.4, 0, 0)), triangle.add_vertex(Point_3(1.4, .1, 0)),
                     triangle.add_vertex(Point_3(1.4, 0, .1)));
   triangle.add_vertex(Point_3(9, 9, 9));
@@ -302,7 +303,7 @@ TEST(Remesh_on_fit, meshes_without_faces_or_area_are_taken) {
 
 TEST(Remesh_on_fit, a_mesh_with_triangles_without_area_keeps_them) {
   Mesh mesh = torus(20);
-  const Fit fit(mesh);
+  const Fit fit(mesh, {.scale = 0});
   for (std::size_t i = 200; i < 220; ++i)
     mesh.point(Mesh::Vertex_index(Mesh::size_type(i))) = mesh.point(Mesh::Vertex_index(200));
   const std::size_t faces = mesh.number_of_faces();
@@ -312,20 +313,28 @@ TEST(Remesh_on_fit, a_mesh_with_triangles_without_area_keeps_them) {
   EXPECT_GT(report.number_on_fit(), faces / 4);
 }
 
+void expect_refused(Mesh& mesh, const Fit& fit, const Remesh_options& options, const std::string& field) {
+  try {
+    remesh_on_fit(mesh, fit, options);
+    ADD_FAILURE() << field;
+  } catch (const Input_error& error) {
+    EXPECT_EQ(error.field(), field);
+  }
+}
+
 TEST(Remesh_on_fit, what_makes_no_sense_is_refused) {
   Mesh mesh = torus(12);
-  const Fit fit(mesh);
+  const Fit fit(mesh, {.scale = 0});
   const std::size_t before = mesh.number_of_vertices();
-  EXPECT_THROW(remesh_on_fit(mesh, fit, parameters::target_edge_length(-1)), std::invalid_argument);
-  EXPECT_THROW(remesh_on_fit(mesh, fit, parameters::target_edge_length(1e-9)), std::invalid_argument);
-  EXPECT_THROW(remesh_on_fit(mesh, fit, parameters::feature_angle(200)), std::invalid_argument);
-  EXPECT_THROW(remesh_on_fit(mesh, fit, parameters::target_edge_length(std::nan(""))), std::invalid_argument);
+  expect_refused(mesh, fit, {.edge_length = -1}, "edge_length");
+  expect_refused(mesh, fit, {.edge_length = 1e-9}, "edge_length");
+  expect_refused(mesh, fit, {.feature_angle = 200}, "feature_angle");
+  expect_refused(mesh, fit, {.edge_length = std::nan("")}, "edge_length");
   EXPECT_EQ(mesh.number_of_vertices(), before);
   Mesh thin, squares;
   thin.add_face(thin.add_vertex(Point_3(0, 0, 0)), thin.add_vertex(Point_3(1, 0, 0)),
                 thin.add_vertex(Point_3(0, 1e-9, 0)));
-  EXPECT_THROW(remesh_on_fit(thin, fit, parameters::target_edge_length(1e-5)), std::invalid_argument)
-      << "there would be few triangles, but many parts of an edge";
+  expect_refused(thin, fit, {.edge_length = 1e-5}, "edge_length"); // few triangles, but many parts of an edge
   CGAL::make_grid(2, 2, squares);
   EXPECT_THROW(remesh_on_fit(squares, fit), std::invalid_argument);
 }

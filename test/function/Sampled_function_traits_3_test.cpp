@@ -41,8 +41,8 @@ TEST(Sampled_function_traits_3, values_and_expansions_are_those_of_the_spline_of
   const Volume_3 volume = random_volume(10);
   for (const int degree : {5, 7, 9})
     for (const auto scheme : {equiaffine::Spline_scheme::CONVOLUTION, equiaffine::Spline_scheme::QUASI_INTERPOLATION}) {
-      const equiaffine::Spline_function_3<Kernel> spline(volume, {.degree = degree, .scheme = scheme});
-      const Traits traits(volume, {.degree = degree, .scheme = scheme});
+      const equiaffine::Spline_function_3<Kernel> spline(volume, {.spline_scheme = scheme, .spline_degree = degree});
+      const Traits traits(volume, {.spline_scheme = scheme, .spline_degree = degree});
       EXPECT_EQ(traits.value(inner_point), spline.value(inner_point));
       EXPECT_EQ(traits.first_order(inner_point).coefficients(), spline.taylor<1>(inner_point).coefficients());
       EXPECT_EQ(traits.taylor(inner_point).coefficients(), spline.taylor(inner_point).coefficients());

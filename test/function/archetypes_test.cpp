@@ -77,7 +77,7 @@ TYPED_TEST_SUITE(Archetypes, Functions);
 
 TYPED_TEST(Archetypes, are_enough_for_marching_cubes) {
   const TypeParam traits{Sphere()};
-  expect_sphere(marching_cubes(traits, parameters::number_of_nodes(12)));
+  expect_sphere(marching_cubes(traits, {.resolution = 12}));
 }
 
 TYPED_TEST(Archetypes, are_enough_for_the_structure_at_points) {
@@ -179,25 +179,24 @@ TYPED_TEST(Archetypes, are_enough_for_wrappers) {
   expect_members<TypeParam>(Transformed_function_traits_3<TypeParam>(traits, scaling), 1);
   expect_members<TypeParam>(Batch_function_traits_3<Level_set_traits_3<TypeParam>>(level_set), 4);
   expect_members<TypeParam>(Any_function_3::make(level_set), 4);
-  expect_sphere(marching_cubes(Any_function_3::make(Batch_function_traits_3<TypeParam>(traits)),
-                               parameters::number_of_nodes(12)));
+  expect_sphere(marching_cubes(Any_function_3::make(Batch_function_traits_3<TypeParam>(traits)), {.resolution = 12}));
 }
 
 TEST(Archetypes_of_functions, with_bounds_are_enough_to_skip_empty_space) {
-  expect_sphere(marching_cubes(Bounded{Sphere()}, parameters::number_of_nodes(20).skip_empty_space()));
-  expect_sphere(marching_cubes(Restrictable{Sphere()}, parameters::number_of_nodes(20).skip_empty_space()));
+  expect_sphere(marching_cubes(Bounded{Sphere()}, {.resolution = 20}));
+  expect_sphere(marching_cubes(Restrictable{Sphere()}, {.resolution = 20}));
 }
 
 TEST(Archetypes_of_functions, may_have_another_kernel_or_floats) {
-  expect_sphere(marching_cubes(archetypes::Implicit_function<Other_kernel>{Sphere()}, parameters::number_of_nodes(12)));
+  expect_sphere(marching_cubes(archetypes::Implicit_function<Other_kernel>{Sphere()}, {.resolution = 12}));
   const archetypes::Implicit_function<Floats> floats{Sphere()};
-  expect_sphere(marching_cubes(floats, parameters::number_of_nodes(12)), 1e-6);
+  expect_sphere(marching_cubes(floats, {.resolution = 12}), 1e-6);
   EXPECT_NEAR(local_structure_at(floats, {0, 2, 0}).affine.gaussian_curvature, 0.125F, 1e-6F);
 }
 
 TEST(Archetypes_of_functions, are_enough_for_parabolic_curves) {
   const archetypes::Implicit_function<Kernel, Torus> torus{Torus()};
-  const auto curves = parabolic_curves(marching_cubes(torus, parameters::number_of_nodes(24)), torus);
+  const auto curves = parabolic_curves(marching_cubes(torus, {.resolution = 24}), torus);
   ASSERT_EQ(curves.polylines.size(), 2U) << "the top and the bottom circle";
   for (const auto& curve : curves.polylines)
     for (const auto& p : curve.points) EXPECT_NEAR(std::hypot(p.x(), p.y()), 1, 1e-12);
@@ -228,7 +227,7 @@ public:
 
 TEST(Archetypes_of_functors, of_coordinates_are_enough_for_a_function) {
   const auto traits = make_analytic_traits<Kernel>(Functor{Sphere()}, CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
-  expect_sphere(marching_cubes(traits, parameters::number_of_nodes(12).skip_empty_space()));
+  expect_sphere(marching_cubes(traits, {.resolution = 12}));
   EXPECT_NEAR(local_structure_at(traits, {0, 2, 0}).affine.gaussian_curvature, 0.125, 1e-14);
   EXPECT_TRUE(traits.second_order_bounds(traits.bbox()).value().contains(11));
 }

@@ -87,7 +87,7 @@ struct Sampled_model {
           const Point_3 p = lattice.point(double(i), double(j), double(k));
           volume.values.push_back(Auto_function()(p.x(), p.y(), p.z()));
         }
-    return Traits(volume, {.degree = Degree});
+    return Traits(volume, {.spline_degree = Degree});
   }
   static std::vector<Point_3> points() { return inner_points(); }
   static constexpr double length = 0.1; // a voxel, beyond which the spline is another polynomial
@@ -100,7 +100,7 @@ struct Fitted_model {
     std::vector<Point_3> samples;
     for (int i = -7; i <= 7; ++i)
       for (int j = -7; j <= 7; ++j) samples.emplace_back(i / 7., j / 7., height(i / 7., j / 7.));
-    return Traits(samples);
+    return Traits(samples, {.scale = 0});
   }
   static std::vector<Point_3> points() {
     std::vector<Point_3> result;
@@ -251,7 +251,7 @@ static_assert(!BoundedImplicitFunctionTraits_3<With_wide_bounds>);
 
 TEST(Concepts, the_archetype_is_enough_for_delaunay_surface) {
   const archetypes::Implicit_function<Kernel> sphere{archetypes::Sphere()};
-  const auto surface = delaunay_surface(sphere, {30, 0.2, 0.1});
+  const auto surface = delaunay_surface(sphere, {.radius = 0.2, .distance = 0.1});
   EXPECT_GT(surface.triangles.size(), 100u);
   for (const Point_3& p : surface.points) EXPECT_NEAR(std::hypot(p.x(), p.y(), p.z()), 1, 1e-12);
   EXPECT_FALSE(surface.is_certified);

@@ -42,7 +42,8 @@ Traits sampled(const Function& f, int degree, Spline_scheme scheme, const Treatm
         const double value = f(p.x(), p.y(), p.z());
         volume.values.push_back(treatment.are_floats ? double(float(value)) : value);
       }
-  return Traits(std::move(volume), {.degree = degree, .scheme = scheme, .smoothing = treatment.smoothing});
+  return Traits(std::move(volume),
+                {.smoothing = treatment.smoothing, .spline_scheme = scheme, .spline_degree = degree});
 }
 
 template <class Function>

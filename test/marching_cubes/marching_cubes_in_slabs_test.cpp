@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/Without_bounds.h"
+#include "support/error_field.h"
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/Sampled_function_traits_3.h>
@@ -13,7 +15,6 @@
 #include <cstddef>
 #include <limits>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,25 +24,25 @@ using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
 
 /// Expects that slabs of that many planes follow on each other and together are the mesh.
-template <class Traits, class Parameters>
+template <class Traits>
 void expect_same(const Traits& traits, const Isosurface_3<Kernel>& whole, std::size_t planes,
-                 const Parameters& parameters, const std::string& name) {
+                 const Marching_cubes_options& options, const std::string& name) {
   std::vector<Kernel::Point_3> points;
   std::vector<Point_status> status;
   std::vector<std::array<std::size_t, 3>> triangles, expected(whole.triangles.size());
   std::size_t next_plane = 0;
-  const auto totals = marching_cubes_in_slabs(
-      traits,
-      [&](const Isosurface_slab_3<Kernel>& slab) {
-        EXPECT_EQ(slab.first_plane, next_plane);
-        EXPECT_EQ(slab.first_vertex, points.size());
-        EXPECT_EQ(slab.first_triangle, triangles.size());
-        next_plane = slab.end_plane;
-        points.insert(points.end(), slab.points.begin(), slab.points.end());
-        status.insert(status.end(), slab.vertex_status.begin(), slab.vertex_status.end());
-        triangles.insert(triangles.end(), slab.triangles.begin(), slab.triangles.end());
-      },
-      parameters.planes_per_slab(planes));
+  const auto totals =
+      marching_cubes_in_slabs(traits,
+                              [&](const Isosurface_slab_3<Kernel>& slab) {
+                                EXPECT_EQ(slab.first_plane, next_plane);
+                                EXPECT_EQ(slab.first_vertex, points.size());
+                                EXPECT_EQ(slab.first_triangle, triangles.size());
+                                next_plane = slab.end_plane;
+                                points.insert(points.end(), slab.points.begin(), slab.points.end());
+                                status.insert(status.end(), slab.vertex_status.begin(), slab.vertex_status.end());
+                                triangles.insert(triangles.end(), slab.triangles.begin(), slab.triangles.end());
+                              },
+                              {.sampling = options, .planes_per_slab = planes});
   for (std::size_t t = 0; t < expected.size(); ++t)
     expected[t] = {whole.triangles[t][0], whole.triangles[t][1], whole.triangles[t][2]};
   EXPECT_EQ(points, whole.points) << name << ", " << planes << " planes per slab";
@@ -72,10 +73,10 @@ TEST(Marching_cubes_in_slabs, slabs_are_the_mesh_whatever_the_function_is) {
                                                  "sin(7*x)*cos(7*y)+sin(7*y)*cos(7*z)+sin(7*z)*cos(7*x)"};
   for (const char* text : functions) {
     const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-    const auto parameters = parameters::number_of_nodes({21, 21, 41});
-    const auto whole = marching_cubes(traits, parameters);
-    for (const std::size_t planes : {1u, 2u, 5u, 16u, 41u, 100u}) expect_same(traits, whole, planes, parameters, text);
-    expect_same(traits, marching_cubes(traits, parameters.skip_empty_space()), 7, parameters.skip_empty_space(), text);
+    const Marching_cubes_options options{.resolution = {21, 21, 41}};
+    const auto whole = marching_cubes(traits, options);
+    for (const std::size_t planes : {1u, 2u, 5u, 16u, 41u, 100u}) expect_same(traits, whole, planes, options, text);
+    expect_same(Without_bounds(traits), whole, 7, options, text);
   }
 }
 
@@ -92,8 +93,8 @@ TEST(Marching_cubes_in_slabs, slabs_are_the_mesh_of_random_samples) {
       const std::string name = "volume " + std::to_string(n);
       for (const std::size_t planes : {3u, 10u})
         for (const auto position : {Vertex_position::LINEAR, Vertex_position::PROJECTED}) {
-          const auto parameters = parameters::vertex_position(position);
-          expect_same(traits, marching_cubes(traits, parameters), planes, parameters, name);
+          const Marching_cubes_options options{.vertices = position};
+          expect_same(traits, marching_cubes(traits, options), planes, options, name);
         }
     }
 }
@@ -106,7 +107,7 @@ TEST(Marching_cubes_in_slabs, threads_change_nothing) {
       points.insert(points.end(), slab.points.begin(), slab.points.end());
     };
   };
-  marching_cubes_in_slabs<CGAL::Sequential_tag>(traits, add_to(one), parameters::planes_per_slab(9));
+  marching_cubes_in_slabs<CGAL::Sequential_tag>(traits, add_to(one), {.planes_per_slab = 9});
   marching_cubes_in_slabs<CGAL::Parallel_if_available_tag>(traits, add_to(many));
   EXPECT_FALSE(one.empty());
   EXPECT_EQ(one, many);
@@ -117,7 +118,11 @@ TEST(Marching_cubes_in_slabs, a_visitor_may_stop_and_a_slab_needs_a_plane) {
   struct Stop {};
   const auto stop = [](const auto&) { throw Stop(); };
   EXPECT_THROW(marching_cubes_in_slabs(traits, stop), Stop);
-  EXPECT_THROW(marching_cubes_in_slabs(traits, stop, parameters::planes_per_slab(0)), std::invalid_argument);
+  const auto field = [&](const Slab_options& options) {
+    return error_field([&] { marching_cubes_in_slabs(traits, stop, options); });
+  };
+  EXPECT_EQ(field({.planes_per_slab = 0}), "planes_per_slab");
+  EXPECT_EQ(field({.sampling = {.resolution = 1}}), "sampling.resolution");
 }
 
 } // namespace marching_cubes_in_slabs_test

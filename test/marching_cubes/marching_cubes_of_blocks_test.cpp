@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/Without_bounds.h"
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/Sampled_function_traits_3.h>
@@ -38,12 +39,12 @@ struct Mesh_of_ids {
 };
 
 /// Adds the mesh of a block to that of others, with which it must agree where both have a vertex.
-template <class Traits, class Parameters>
+template <class Traits>
 void add_block(Mesh_of_ids& mesh, const Traits& traits, const Size& nodes, const Cell_block& block,
-               const Parameters& parameters, const std::string& name) {
+               const Slab_options& options, const std::string& name) {
   std::vector<Vertex_id> ids;
-  marching_cubes_in_slabs(
-      traits,
+  marching_cubes_of_block(
+      traits, block,
       [&](const Isosurface_slab_3<Kernel>& slab) {
         EXPECT_EQ(slab.first_vertex, ids.size());
         ids.insert(ids.end(), slab.vertex_ids.begin(), slab.vertex_ids.end());
@@ -57,14 +58,14 @@ void add_block(Mesh_of_ids& mesh, const Traits& traits, const Size& nodes, const
         }
         for (const auto& [a, b, c] : slab.triangles) mesh.triangles.push_back({ids[a], ids[b], ids[c]});
       },
-      parameters.cell_block(block));
+      options);
   EXPECT_EQ(std::set(ids.begin(), ids.end()).size(), ids.size()) << name << ": a vertex is twice in a block";
 }
 
 /// The mesh of blocks, into which the lattice is cut at the given cells along each axis.
-template <class Traits, class Parameters>
+template <class Traits>
 Mesh_of_ids mesh_of_blocks(const Traits& traits, const Size& nodes, const std::array<std::vector<std::size_t>, 3>& cuts,
-                           const Parameters& parameters, const std::string& name) {
+                           const Slab_options& options, const std::string& name) {
   Mesh_of_ids mesh;
   std::array<std::vector<std::size_t>, 3> ends = cuts;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -75,7 +76,7 @@ Mesh_of_ids mesh_of_blocks(const Traits& traits, const Size& nodes, const std::a
     for (std::size_t y = 0; y + 1 < ends[1].size(); ++y)
       for (std::size_t x = 0; x + 1 < ends[0].size(); ++x)
         add_block(mesh, traits, nodes,
-                  {{ends[0][x], ends[1][y], ends[2][z]}, {ends[0][x + 1], ends[1][y + 1], ends[2][z + 1]}}, parameters,
+                  {{ends[0][x], ends[1][y], ends[2][z]}, {ends[0][x + 1], ends[1][y + 1], ends[2][z + 1]}}, options,
                   name);
   EXPECT_EQ(mesh.owners, mesh.vertices.size()) << name << ": a vertex belongs to no block that has it, or to two";
   std::sort(mesh.triangles.begin(), mesh.triangles.end());
@@ -84,10 +85,11 @@ Mesh_of_ids mesh_of_blocks(const Traits& traits, const Size& nodes, const std::a
 
 /// Expects that the mesh of one block has the vertices and triangles of marching_cubes() in another order, and that
 /// blocks together have the same mesh as one.
-template <class Traits, class Parameters>
-void expect_same(const Traits& traits, const Size& nodes, const Parameters& parameters, const std::string& name) {
-  const auto whole = marching_cubes(traits, parameters);
-  const Mesh_of_ids mesh = mesh_of_blocks(traits, nodes, {}, parameters, name);
+template <class Traits>
+void expect_same(const Traits& traits, const Size& nodes, const Marching_cubes_options& options,
+                 const std::string& name) {
+  const auto whole = marching_cubes(traits, options);
+  const Mesh_of_ids mesh = mesh_of_blocks(traits, nodes, {}, {.sampling = options}, name);
   ASSERT_EQ(mesh.vertices.size(), whole.points.size()) << name;
   std::vector<std::array<Kernel::Point_3, 3>> expected, triangles;
   for (const auto& [a, b, c] : whole.triangles) expected.push_back({whole.points[a], whole.points[b], whole.points[c]});
@@ -103,7 +105,7 @@ void expect_same(const Traits& traits, const Size& nodes, const Parameters& para
                                                                      {{{x / 2}, {y / 2}, {z / 3, z / 2}}}};
   for (std::size_t n = 0; n < ways.size(); ++n) {
     const std::string way = name + ", way " + std::to_string(n);
-    const Mesh_of_ids blocks = mesh_of_blocks(traits, nodes, ways[n], parameters.planes_per_slab(5), way);
+    const Mesh_of_ids blocks = mesh_of_blocks(traits, nodes, ways[n], {.sampling = options, .planes_per_slab = 5}, way);
     EXPECT_TRUE(blocks == mesh) << way;
   }
 }
@@ -125,8 +127,8 @@ TEST(Marching_cubes_of_blocks, blocks_are_the_mesh_whatever_the_function_is) {
   const Size nodes = {21, 20, 31};
   for (const char* text : functions) {
     const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-    expect_same(traits, nodes, parameters::number_of_nodes(nodes), text);
-    expect_same(traits, nodes, parameters::number_of_nodes(nodes).skip_empty_space(), text);
+    expect_same(traits, nodes, {.resolution = nodes}, text);
+    expect_same(Without_bounds(traits), nodes, {.resolution = nodes}, text);
   }
 }
 
@@ -142,15 +144,15 @@ TEST(Marching_cubes_of_blocks, blocks_are_the_mesh_of_random_samples) {
         volume.values.push_back(values[random() % values.size()]);
       const Sampled_function_traits_3<Kernel> traits(volume);
       for (const auto position : {Vertex_position::LINEAR, Vertex_position::PROJECTED})
-        expect_same(traits, nodes, parameters::vertex_position(position), "volume " + std::to_string(n));
+        expect_same(traits, nodes, {.vertices = position}, "volume " + std::to_string(n));
     }
 }
 
 TEST(Marching_cubes_of_blocks, cells_must_be_known) {
   const auto traits = make_analytic_traits<Kernel>(Expression_3("x^2+y^2+z^2-1"), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
   const auto run = [&](const Cell_block& block, const Cell_block& known) {
-    marching_cubes_in_slabs(
-        traits, [](const auto&) {}, parameters::number_of_nodes(21).cell_block(block).known_cells(known));
+    marching_cubes_of_block(
+        traits, block, [](const auto&) {}, {.sampling = {.resolution = 21}}, known);
   };
   const Cell_block all{{0, 0, 0}, {20, 20, 20}}, half{{0, 0, 0}, {20, 20, 10}};
   EXPECT_NO_THROW(run(half, {{0, 0, 0}, {20, 20, 14}}));

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/Without_bounds.h"
+#include "support/error_field.h"
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/Level_set_traits_3.h>
@@ -15,10 +17,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
+#include <cstddef>
 #include <limits>
 #include <random>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 #include <vector>
 
 namespace marching_cubes_test {
@@ -49,8 +54,8 @@ Mesh_topology topology(const Isosurface_3<Kernel>& surface) {
 TEST(Marching_cubes, the_image_of_a_surface_has_the_images_of_its_vertices) {
   const auto traits = traits_of(surfaces[2]);
   const Kernel::Aff_transformation_3 map(0.9, 0, 0.9, 0, 2, 0, 1.1, 0, 0.6);
-  const auto surface = marching_cubes(traits, parameters::number_of_nodes(20));
-  const auto image = marching_cubes(Transformed_function_traits_3(traits, map), parameters::number_of_nodes(20));
+  const auto surface = marching_cubes(traits, {.resolution = 20});
+  const auto image = marching_cubes(Transformed_function_traits_3(traits, map), {.resolution = 20});
   ASSERT_EQ(surface.points.size(), image.points.size());
   for (std::size_t i = 0; i < surface.points.size(); ++i)
     EXPECT_LE(CGAL::squared_distance(map(surface.points[i]), image.points[i]), 1e-24);
@@ -60,8 +65,7 @@ TEST(Marching_cubes, linear_vertices_converge_with_order_two_and_projected_ones_
   const auto traits = traits_of(surfaces[0]);
   const auto worst = [&](std::size_t n) {
     double distance = 0;
-    const auto surface =
-        marching_cubes(traits, parameters::number_of_nodes(n).vertex_position(Vertex_position::LINEAR));
+    const auto surface = marching_cubes(traits, {.resolution = n, .vertices = Vertex_position::LINEAR});
     for (const Point_3& p : surface.points)
       distance = std::max(distance, std::abs(std::sqrt((p - CGAL::ORIGIN).squared_length()) - 1));
     return distance;
@@ -81,9 +85,10 @@ TEST(Marching_cubes, threads_change_nothing) {
 TEST(Marching_cubes, skipping_empty_space_changes_nothing_but_the_number_of_evaluations) {
   for (const Surface& s : surfaces)
     for (const std::size_t n : {20u, 65u, 100u}) {
-      const auto nodes = parameters::number_of_nodes(n).vertex_position(Vertex_position::LINEAR);
-      const auto all = marching_cubes(traits_of(s), nodes),
-                 some = marching_cubes(traits_of(s), nodes.skip_empty_space());
+      const Marching_cubes_options options{.resolution = n, .vertices = Vertex_position::LINEAR};
+      const auto all = marching_cubes(Without_bounds(traits_of(s)), options),
+                 some = marching_cubes(traits_of(s), options);
+      EXPECT_GT(all.function_evaluations, n * n * n) << s.name;
       EXPECT_EQ(all.points, some.points) << s.name;
       EXPECT_EQ(all.triangles, some.triangles) << s.name;
       if (n == 100) {
@@ -95,8 +100,8 @@ TEST(Marching_cubes, skipping_empty_space_changes_nothing_but_the_number_of_eval
 TEST(Marching_cubes, skipping_empty_space_changes_nothing_on_skew_lattices) {
   const Kernel::Aff_transformation_3 map(0.9, 0, -0.9, 0, -2, 0.3, 1.1, -0.2, 0.6);
   const Transformed_function_traits_3 image(traits_of(surfaces[0]), map);
-  const auto nodes = parameters::number_of_nodes(70).vertex_position(Vertex_position::LINEAR);
-  const auto all = marching_cubes(image, nodes), some = marching_cubes(image, nodes.skip_empty_space());
+  const Marching_cubes_options options{.resolution = 70, .vertices = Vertex_position::LINEAR};
+  const auto all = marching_cubes(Without_bounds(image), options), some = marching_cubes(image, options);
   EXPECT_EQ(all.points, some.points);
   EXPECT_EQ(all.triangles, some.triangles);
   EXPECT_LT(some.function_evaluations, all.function_evaluations);
@@ -110,21 +115,49 @@ TEST(Marching_cubes, skipping_empty_space_does_not_take_the_end_of_the_domain_fo
                            "(z-0.3)*(1+0.01*sqrt(0.33-z+0.2*x))"})
     for (const std::size_t n : {37u, 40u}) {
       const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-      const auto nodes = parameters::number_of_nodes(n).vertex_position(Vertex_position::LINEAR);
-      const auto all = marching_cubes(traits, nodes), some = marching_cubes(traits, nodes.skip_empty_space());
+      const Marching_cubes_options options{.resolution = n, .vertices = Vertex_position::LINEAR};
+      const auto all = marching_cubes(Without_bounds(traits), options), some = marching_cubes(traits, options);
       EXPECT_FALSE(all.triangles.empty());
       EXPECT_EQ(all.points, some.points) << text;
       EXPECT_EQ(all.triangles, some.triangles) << text;
     }
 }
 
-TEST(Marching_cubes, skipping_empty_space_keeps_the_samples_of_a_volume) {
-  // Convolution smooths a single negative sample away: the bounds of the spline do not see it.
-  Volume_3<Kernel> volume{Lattice_3<Kernel>({12, 12, 12}, CGAL::Bbox_3(0, 0, 0, 11, 11, 11)),
-                          std::vector<double>(1728, 1.0)};
-  volume.values[volume.lattice.index(6, 6, 6)] = -0.5;
-  const Sampled_function_traits_3<Kernel> traits(volume, {.degree = 5, .scheme = Spline_scheme::CONVOLUTION});
-  EXPECT_EQ(marching_cubes(traits, parameters::skip_empty_space()).points.size(), 6u);
+/// Functors whose branches depend on comparisons, which intervals may leave undecided.
+struct Box_or_ball {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    using std::abs;
+    if (x < 0.1) return std::max(abs(y), abs(z)) - 0.4;
+    return 0.49 >= y * y + z * z ? x * x + y * y + z * z - 0.7 : T(0.3);
+  }
+};
+/// A functor that intervals do not compile with, and that says so.
+struct Without_intervals {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const requires(!std::same_as<T, Interval>) {
+    static_assert(!std::is_same_v<T, Interval>);
+    return x * x + y * y + z * z - 0.5;
+  }
+};
+
+TEST(Marching_cubes, functors_with_branches_and_without_intervals_have_the_same_surface_with_and_without_bounds) {
+  const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
+  const auto branching = make_analytic_traits<Kernel>(Box_or_ball(), box);
+  static_assert(BoundedImplicitFunctionTraits_3<Analytic_function_traits_3<Kernel, Box_or_ball>>);
+  EXPECT_EQ(branching.bounds(CGAL::Bbox_3(0, 0, 0, 0.2, 0.1, 0.1)), Interval::whole()) << "on both sides of x = 0.1";
+  EXPECT_LT(branching.bounds(CGAL::Bbox_3(0.2, 0, 0, 0.3, 0.1, 0.1)).upper(), 0);
+  EXPECT_EQ(branching.first_order_bounds(box).coefficients()[1], Interval::whole());
+  const auto all = marching_cubes(Without_bounds(branching), {.resolution = 65}),
+             some = marching_cubes(branching, {.resolution = 65});
+  EXPECT_GT(all.points.size(), 1000u);
+  EXPECT_EQ(all.points, some.points);
+  EXPECT_EQ(all.triangles, some.triangles);
+  EXPECT_LT(some.function_evaluations, all.function_evaluations);
+
+  const auto unbounded = make_analytic_traits<Kernel>(Without_intervals(), box);
+  static_assert(!BoundedImplicitFunctionTraits_3<Analytic_function_traits_3<Kernel, Without_intervals>>);
+  EXPECT_EQ(topology(marching_cubes(unbounded, {.resolution = 20})).euler_characteristic, 2);
 }
 
 Volume_3<Kernel> random_volume(std::size_t n, std::mt19937& random, const std::vector<double>& values) {
@@ -143,7 +176,7 @@ TEST(Marching_cubes, projection_turns_no_triangle_over) {
   std::size_t undone = 0;
   for (int n = 0; n < 30; ++n) {
     const Sampled_function_traits_3<Kernel> traits(random_volume(8, random, {-1.0, -0.8, -0.1, 0.03, 0.4, 0.9}));
-    const auto linear = marching_cubes(traits, parameters::vertex_position(Vertex_position::LINEAR));
+    const auto linear = marching_cubes(traits, {.vertices = Vertex_position::LINEAR});
     const auto projected = marching_cubes(traits);
     undone += projected.repairs.flips_undone;
     ASSERT_EQ(linear.triangles, projected.triangles);
@@ -175,7 +208,7 @@ TEST(Marching_cubes, surfaces_through_nodes_have_no_triangles_of_zero_area) {
   for (int n = 0; n < 100; ++n)
     for (const auto& values : {std::vector{-1.0, -0.5, 0.0, 0.5, 1.0}, std::vector{-1.0, 0.0, 0.0, 1.0, nan}}) {
       const Sampled_function_traits_3<Kernel> traits(random_volume(7, random, values));
-      const auto surface = marching_cubes(traits, parameters::vertex_position(Vertex_position::LINEAR));
+      const auto surface = marching_cubes(traits, {.vertices = Vertex_position::LINEAR});
       contracted += surface.repairs.contracted_edges;
       ASSERT_EQ(surface.repairs.zero_area_left, 0u);
       for (const auto& [a, b, c] : surface.triangles)
@@ -191,8 +224,8 @@ TEST(Marching_cubes, a_volume_has_the_surface_of_its_array) {
     for (const auto& values : {std::vector{-1.0, -0.5, 0.0, 0.5, 1.0}, std::vector{-1.0, 0.0, 0.0, 1.0, nan}}) {
       auto volume = random_volume(7, random, values);
       volume.lattice = Lattice_3<Kernel>({7, 7, 7}, CGAL::Bbox_3(0, 0, 0, 6, 6, 6));
-      const auto surface = marching_cubes(Sampled_function_traits_3<Kernel>(volume),
-                                          parameters::vertex_position(Vertex_position::LINEAR));
+      const auto surface =
+          marching_cubes(Sampled_function_traits_3<Kernel>(volume), {.vertices = Vertex_position::LINEAR});
       const auto of_array = marching_cubes_of_array(std::span<const double>(volume.values), {7, 7, 7}, 0.0);
       std::vector<Point_3> points;
       for (const auto& [x, y, z] : of_array.points) points.emplace_back(x, y, z);
@@ -236,7 +269,7 @@ TEST(Marching_cubes, nodes_without_a_value_leave_a_clean_border) {
 
 TEST(Marching_cubes, a_surface_that_leaves_the_box_has_a_boundary_there) {
   const auto traits = make_analytic_traits<Kernel>(Expression_3("x^2+y^2-0.3"), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-  const auto surface = marching_cubes(traits, parameters::number_of_nodes({20, 22, 24}));
+  const auto surface = marching_cubes(traits, {.resolution = {20, 22, 24}});
   const auto t = topology(surface);
   EXPECT_TRUE(t.is_manifold);
   EXPECT_EQ(t.euler_characteristic, 0);
@@ -249,7 +282,7 @@ TEST(Marching_cubes, poles_are_no_surfaces) {
   for (const char* text : {"1/x", "1/(x-0.01)", "1/x^3", "x/abs(x)^1.25", "x/abs(x)*log(abs(x)/3)", "1/(x-y)",
                            "tan(x+1.5)", "1/(x*y*z)", "1/(x^2+y^2+z^2-0.5)"}) {
     const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-    const auto surface = marching_cubes<CGAL::Parallel_if_available_tag>(traits, parameters::number_of_nodes(20));
+    const auto surface = marching_cubes<CGAL::Parallel_if_available_tag>(traits, {.resolution = 20});
     EXPECT_EQ(surface.points.size(), 0u) << text;
     EXPECT_EQ(surface.triangles.size(), 0u) << text;
     EXPECT_GT(surface.repairs.vertices_at_poles, 0u) << text;
@@ -259,7 +292,7 @@ TEST(Marching_cubes, poles_are_no_surfaces) {
 TEST(Marching_cubes, a_surface_ends_beside_a_pole) {
   for (const char* text : {"1/x+y", "z/x", "tan(x)-y", "1/(x-.3)+y", "x*y*z/(x-.3)"}) {
     const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
-    const auto surface = marching_cubes(traits, parameters::number_of_nodes(40));
+    const auto surface = marching_cubes(traits, {.resolution = 40});
     const auto t = topology(surface);
     EXPECT_TRUE(t.is_manifold) << text;
     EXPECT_GT(surface.triangles.size(), 1000u) << text;
@@ -277,7 +310,7 @@ TEST(Marching_cubes, a_surface_ends_beside_a_pole) {
 TEST(Marching_cubes, a_jump_is_no_surface) {
   for (const char* text : {"(x-0.01)/abs(x-0.01)", "(x-0.01)/abs(x-0.01)*(2-abs(x))"}) {
     const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-    const auto surface = marching_cubes(traits, parameters::number_of_nodes(8));
+    const auto surface = marching_cubes(traits, {.resolution = 8});
     EXPECT_TRUE(surface.points.empty()) << text;
     EXPECT_GT(surface.repairs.vertices_at_poles, 0u) << text;
   }
@@ -286,7 +319,7 @@ TEST(Marching_cubes, a_jump_is_no_surface) {
 TEST(Marching_cubes, a_jump_is_no_surface_beside_one) {
   const auto traits =
       make_analytic_traits<Kernel>(Expression_3("(x-0.01)/abs(x-0.01)*(2-x)-1.5"), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-  const auto surface = marching_cubes(traits, parameters::number_of_nodes(8));
+  const auto surface = marching_cubes(traits, {.resolution = 8});
   EXPECT_EQ(surface.points.size(), 64u);
   for (const auto& p : surface.points) EXPECT_NEAR(p.x(), 0.5, 1e-15);
   EXPECT_EQ(surface.repairs.vertices_at_poles, 64u) << "f is small beside the jump, at x = 0.14";
@@ -295,7 +328,7 @@ TEST(Marching_cubes, a_jump_is_no_surface_beside_one) {
 TEST(Marching_cubes, a_jump_ends_the_surface) {
   const auto helicoid = make_analytic_traits<Kernel>(Expression_3("z-atan2(y,x)"), CGAL::Bbox_3(-2, -2, -4, 2, 2, 4));
   for (const std::size_t n : {12u, 25u, 40u}) {
-    const auto surface = marching_cubes(helicoid, parameters::number_of_nodes(n));
+    const auto surface = marching_cubes(helicoid, {.resolution = n});
     EXPECT_GT(surface.triangles.size(), n * n);
     for (const auto& p : surface.points) EXPECT_NEAR(p.z(), std::atan2(p.y(), p.x()), 1e-12);
     for (const Point_status status : surface.vertex_status) EXPECT_NE(status, Point_status::UNCONVERGED);
@@ -305,8 +338,11 @@ TEST(Marching_cubes, a_jump_ends_the_surface) {
 TEST(Marching_cubes, arguments_without_a_result_are_refused_in_every_build) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const auto sphere = traits_of(surfaces[0]);
-  for (const std::size_t n : {0u, 1u})
-    EXPECT_THROW(marching_cubes(sphere, parameters::number_of_nodes(n)), std::invalid_argument);
+  for (const Resolution& resolution : {Resolution(0), Resolution(1), Resolution(20, 1, 20)})
+    EXPECT_EQ(error_field([&] { marching_cubes(sphere, {.resolution = resolution}); }), "resolution");
+  EXPECT_EQ(error_field([] { Resolution(-5); }), "resolution");
+  EXPECT_EQ(error_field([] { Resolution(9, -1L, 9); }), "resolution");
+  EXPECT_EQ(Resolution(9).nodes(), (std::array<std::size_t, 3>{9, 9, 9}));
   const CGAL::Bbox_3 space(-infinity, -infinity, -infinity, infinity, infinity, infinity);
   EXPECT_THROW(marching_cubes(make_analytic_traits<Kernel>(Expression_3("x"), space)), std::invalid_argument);
   const std::vector<double> values(8);
@@ -323,8 +359,8 @@ TEST(Marching_cubes, vertices_around_a_sample_that_the_spline_smooths_away_are_u
   Volume_3<Kernel> volume{Lattice_3<Kernel>({12, 12, 12}, CGAL::Bbox_3(0, 0, 0, 11, 11, 11)),
                           std::vector<double>(1728, 1.0)};
   volume.values[volume.lattice.index(6, 6, 6)] = -0.5;
-  const auto surface =
-      marching_cubes(Sampled_function_traits_3<Kernel>(volume, {.degree = 5, .scheme = Spline_scheme::CONVOLUTION}));
+  const auto surface = marching_cubes(
+      Sampled_function_traits_3<Kernel>(volume, {.spline_scheme = Spline_scheme::CONVOLUTION, .spline_degree = 5}));
   EXPECT_EQ(surface.points.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(surface.vertex_status[i], Point_status::UNCONVERGED);
 }
@@ -375,7 +411,7 @@ TEST(Marching_cubes, parts_of_a_long_expression_give_the_mesh_of_the_whole) {
   const auto mesh_of = [&](const auto& traits) {
     const Level_set_traits_3 level_set(Transformed_function_traits_3(traits, map), .01,
                                        Orientation_of_level_set::AGAINST_GRADIENT);
-    return marching_cubes(level_set, parameters::number_of_nodes(50).skip_empty_space());
+    return marching_cubes(level_set, {.resolution = 50});
   };
   static_assert(RestrictableImplicitFunctionTraits_3<
                 Level_set_traits_3<Transformed_function_traits_3<Analytic_function_traits_3<Kernel, Expression_3>>>>);

@@ -38,7 +38,7 @@ TEST(Vertex_projection, no_triangle_turns_over_in_many_planes_and_threads_change
     const std::array<double, 6> values = {-1.0, -0.8, -0.1, 0.03, 0.4, 0.9};
     for (std::size_t v = 0; v < 16 * 16 * 70; ++v) volume.values.push_back(values[random() % 6]);
     const Sampled_function_traits_3<Kernel> traits(volume);
-    const auto linear = marching_cubes(traits, parameters::vertex_position(Vertex_position::LINEAR));
+    const auto linear = marching_cubes(traits, {.vertices = Vertex_position::LINEAR});
     const auto one = marching_cubes<CGAL::Sequential_tag>(traits),
                many = marching_cubes<CGAL::Parallel_if_available_tag>(traits);
     ASSERT_EQ(linear.triangles, one.triangles);

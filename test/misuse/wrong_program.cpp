@@ -38,9 +38,9 @@ void use([[maybe_unused]] Mesh& mesh, const CGAL::Bbox_3& box) {
   annotate(polyhedron, sphere);
 #elif CASE == 3  // annotate_by_fit() has nothing to write to: give it property maps
   CGAL::Polyhedron_3<Kernel> polyhedron;
-  annotate_by_fit(polyhedron, parameters::scale(0.1));
+  annotate_by_fit(polyhedron, {.scale = 0.1});
 #elif CASE == 4  // this function does not know one of the named parameters that it is given
-  annotate(mesh, sphere, parameters::scale(0.1));
+  annotate(mesh, sphere, parameters::feature_curves(0.1));
 #elif CASE == 5  // equiaffine does not know one of the named parameters of CGAL that it is given
   annotate(mesh, sphere, CGAL::parameters::face_index_map(1));
 #elif CASE == 6  // an argument is no named parameter: write parameters::NAME(value)
@@ -52,7 +52,7 @@ void use([[maybe_unused]] Mesh& mesh, const CGAL::Bbox_3& box) {
 #elif CASE == 9  // the function takes no jets: write it as a template of the type of its arguments
   marching_cubes(make_analytic_traits<Kernel>([](double x, double y, double z) { return x + y + z; }, box));
 #elif CASE == 10 // this function does not know one of the named parameters that it is given
-  marching_cubes(sphere, parameters::scale(0.1));
+  marching_cubes(sphere, {}, parameters::normal_map(1));
 #elif CASE == 11 // this is no property map: boost::make_assoc_property_map() makes one of a std::map
   std::map<Mesh::Vertex_index, double> values;
   annotate(mesh, sphere, parameters::vertex_affine_mean_curvature_map(values));
@@ -62,15 +62,17 @@ void use([[maybe_unused]] Mesh& mesh, const CGAL::Bbox_3& box) {
   marching_cubes(sphere, 64);
 #elif CASE == 14 // an argument is no named parameter: write parameters::NAME(value)
   annotate(Mesh::Vertex_index(0), mesh, sphere, 0.1);
-#elif CASE == 15 // an argument is no named parameter: write parameters::NAME(value)
-  fitted_structures(mesh, 0.1);
+#elif CASE == 15 // the options of this function are a struct, and named parameters follow it: write {} for the defaults
+  fitted_structures(mesh, parameters::vertex_point_map(mesh.points()));
 #elif CASE == 16 // the mesh that is read is const: give one that can be changed
   IO::read_polygon_mesh("mesh.ply", std::as_const(mesh));
 #elif CASE == 17 // CGAL::Parallel_tag needs TBB, and CGAL_LINKED_WITH_TBB is not defined
   marching_cubes<CGAL::Parallel_tag>(sphere);
 #elif CASE == 18 // the numbers of this kernel are exact, as those of Epeck
   make_analytic_traits<CGAL::Exact_predicates_exact_constructions_kernel>(analytic_functions::Sphere{0.5}, box);
-#elif CASE == 19 // this named parameter counts something: give it a whole number
-  marching_cubes(sphere, parameters::number_of_nodes(64.7));
+#elif CASE == 19 // a resolution counts nodes: give it whole numbers
+  marching_cubes(sphere, {.resolution = 64.7});
+#elif CASE == 20 // or nothing; then options, such as {.resolution = 64} or {}; then named parameters
+  marching_cubes(sphere, mesh, parameters::vertex_status_map(1));
 #endif
 }

@@ -20,6 +20,7 @@
 namespace Interval_test {
 
 using equiaffine::Interval;
+using equiaffine::Undecided_comparison;
 using Exact = boost::multiprecision::cpp_bin_float_50;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -365,6 +366,43 @@ TEST(Interval, products_that_underflow_are_enclosed) {
           }
       }
     }
+}
+
+TEST(Interval, a_comparison_has_the_answer_that_all_pairs_of_numbers_have) {
+  const Interval a(1, 2), b(2, 3), c(2.5, 4);
+  EXPECT_TRUE(a < c && c > a && a <= b && b >= a && a <= 2 && 0.5 < a);
+  EXPECT_FALSE(c < a || a > c || b < a || a > b || c <= a || a >= c || a > 2 || 1 > a);
+  EXPECT_THROW(static_cast<void>(a < b), Undecided_comparison) << "2 is not below 2, and 1 is";
+  EXPECT_THROW(static_cast<void>(a >= b), Undecided_comparison);
+  EXPECT_THROW(static_cast<void>(b > c), Undecided_comparison);
+  EXPECT_THROW(static_cast<void>(Interval::whole() <= a), Undecided_comparison);
+  EXPECT_THROW(static_cast<void>(a < 1.5), Undecided_comparison);
+  EXPECT_FALSE(Interval(2) < Interval(2));
+  EXPECT_TRUE(Interval(2) <= Interval(2));
+  EXPECT_EQ(select(a < c, a, 7.0), a);
+  EXPECT_EQ(select(c < a, a, 7.0), Interval(7));
+}
+
+TEST(Interval, limits_enclose_those_of_doubles) {
+  using Limits = std::numeric_limits<Interval>;
+  EXPECT_TRUE(Interval(Limits::max()).contains(largest));
+  EXPECT_EQ(Interval(Limits::infinity()).upper(), infinity);
+  EXPECT_EQ(Interval(Limits::quiet_NaN()), Interval::whole());
+  EXPECT_FALSE(Limits::is_iec559);
+}
+
+TEST(Interval, an_exponent_that_is_a_number_keeps_its_fraction) {
+  EXPECT_TRUE(encloses(pow(Interval(2), 2.5), pow(Exact(2), Exact(2.5))));
+  EXPECT_LT(pow(Interval(2), 2.5).upper() - pow(Interval(2), 2.5).lower(), 1e-12);
+  EXPECT_EQ(pow(Interval(-1, 2), 2.0), pow(Interval(-1, 2), 2));
+  EXPECT_TRUE(pow(Interval(4), 0.5F).contains(2));
+}
+
+TEST(Interval, the_length_of_a_vector_may_have_three_coordinates) {
+  const Interval r = hypot(Interval(2), Interval(-3, 3), Interval(6));
+  EXPECT_TRUE(encloses(r, Exact(7)) && encloses(r, sqrt(Exact(40))));
+  EXPECT_LT(r.upper(), 7 * (1 + 40 * epsilon));
+  EXPECT_GT(r.lower(), std::sqrt(40.0) * (1 - 40 * epsilon));
 }
 
 // A subnormal number takes a processor a hundred times as long, and so does all that is computed of it.

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/fit/Fitted_function_traits_3.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/function/Sampled_function_traits_3.h>
+#include <equiaffine/function/Transformed_function_traits_3.h>
 #include <equiaffine/registration/affine_symmetries.h>
 
 #include <gtest/gtest.h>
@@ -17,6 +22,12 @@ namespace affine_symmetries_test {
 
 using namespace equiaffine;
 using namespace registration_cases;
+
+static_assert(internal::origin_of<Formula> == internal::Surface_origin::FUNCTION);
+static_assert(internal::origin_of<Transformed_function_traits_3<Sampled_function_traits_3<Kernel>>> ==
+              internal::Surface_origin::SPLINE);
+static_assert(internal::origin_of<Level_set_traits_3<Fitted_function_traits_3<Kernel>>> ==
+              internal::Surface_origin::FIT);
 
 struct Expected {
   std::string formula;
@@ -91,8 +102,7 @@ Affine_symmetries_3<Kernel> symmetries_of_kind(const Expected& e, Map_kind kind,
   Random random(6);
   const Formula formula = Surface{"", e.formula, e.box}.traits();
   const Image image(formula, map_of(1.3 * random_rotation(random), Eigen::Vector3d(1, 2, 3)));
-  return affine_symmetries(image, points_on_surface(image, 24),
-                           parameters::map_kind(kind).reflections(with_reflections));
+  return affine_symmetries(image, points_on_surface(image, 24), {.kind = kind, .reflections = with_reflections});
 }
 
 TEST(Affine_symmetries_long, rigid_ones_are_finite_groups_where_affine_ones_are_continuous_or_more) {
@@ -153,13 +163,13 @@ TEST(Affine_symmetries_long, a_slightly_disturbed_surface_has_those_within_the_t
   const Expected disturbed = {"x^6+2*y^6+.5*z^6-1+.0001*(x^3+.7*y^3*x-.4*z^3*y+.5*x*y*z)", cube(1.3), 48};
   EXPECT_EQ(symmetries(disturbed, {}, 30).order(), 1u);
   const Formula formula = Surface{"", disturbed.formula, disturbed.box}.traits();
-  EXPECT_EQ(affine_symmetries(formula, points_on_surface(formula, 30), parameters::tolerance(1e-3)).order(), 48u);
+  EXPECT_EQ(affine_symmetries(formula, points_on_surface(formula, 30), {.tolerance = 1e-3}).order(), 48u);
 }
 
 Affine_symmetries_3<Kernel> rigid_symmetries(const Expected& e) {
   const Formula formula = Surface{"", e.formula, e.box}.traits();
   return affine_symmetries<CGAL::Parallel_if_available_tag>(formula, points_on_surface(formula, 31),
-                                                            parameters::map_kind(Map_kind::RIGID));
+                                                            {.kind = Map_kind::RIGID});
 }
 
 TEST(Affine_symmetries, a_small_bump_leaves_those_that_keep_it) {
@@ -227,8 +237,12 @@ TEST(Affine_symmetries, a_surface_ends_where_its_function_is_undefined) {
 TEST(Affine_symmetries, what_makes_no_sense_is_refused) {
   const Formula surface = generic_surfaces()[0].traits();
   EXPECT_THROW(affine_symmetries(surface, std::vector<Point_3>()), std::invalid_argument);
-  EXPECT_THROW(affine_symmetries(surface, points_on_surface(surface, 8), parameters::tolerance(1)),
-               std::invalid_argument);
+  try {
+    affine_symmetries(surface, points_on_surface(surface, 8), {.tolerance = 1});
+    ADD_FAILURE() << "there is no error";
+  } catch (const Input_error& error) {
+    EXPECT_EQ(error.field(), "tolerance");
+  }
 }
 
 } // namespace affine_symmetries_test

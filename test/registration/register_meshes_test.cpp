@@ -4,8 +4,10 @@
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
 #include "support/solids.h"
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
 #include <equiaffine/registration/affine_symmetries.h>
-#include <equiaffine/registration/contradictions_of_meshes.h>
 #include <equiaffine/registration/is_affinely_equivalent.h>
 #include <equiaffine/registration/register_surfaces.h>
 
@@ -34,9 +36,13 @@ using namespace registration_cases;
 using namespace solids;
 using Vector_3 = Kernel::Vector_3;
 
-template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Parameters>
-Surface_registration_3<Kernel> registered(const Solid& source, const Solid& target, const Parameters& parameters) {
-  return register_surfaces<ConcurrencyTag>(source.points, source.polygons, target.points, target.polygons, parameters);
+constexpr Registration_options rigid = {.kind = Map_kind::RIGID};
+
+/// What register_surfaces() does with meshes that have no map by curvature.
+Surface_registration_3<Kernel> registered(const Solid& source, const Solid& target, const Registration_options& options,
+                                          bool in_threads = runs_in_threads<CGAL::Parallel_if_available_tag>()) {
+  const auto triangles = [](const Solid& solid) { return internal::triangles_of_soup(solid.points, solid.polygons); };
+  return internal::registration_of_triangles(in_threads, triangles(source), triangles(target), options);
 }
 
 /// The greatest distance between images of points of a solid.
@@ -61,7 +67,7 @@ TEST(Register_meshes, a_whole_without_curvature_is_found_by_every_kind_of_map) {
                                    {Map_kind::AFFINE, random_map(random, 6, 3)}};
   for (const auto& [kind, map] : cases) {
     const Solid target = moved(source, map);
-    const auto found = registered(source, target, parameters::map_kind(kind).number_of_maps(6));
+    const auto found = registered(source, target, {.kind = kind, .number_of_maps = 6});
     ASSERT_EQ(found.maps.size(), 6u) << int(kind) << ": the solid has six symmetries";
     double least = 1;
     for (const auto& each : found.maps) {
@@ -86,11 +92,12 @@ TYPED_TEST(Register_meshes_of_kernels_long, results_are_of_the_kernel_of_the_poi
   const Solid solid = cube_without_corner(.75); // whose coordinates are floats
   std::vector<typename TypeParam::Point_3> points;
   for (const Point_3& p : solid.points) points.emplace_back(FT(p.x()), FT(p.y()), FT(p.z()));
-  const auto parameters = parameters::map_kind(Map_kind::RIGID).number_of_maps(3);
+  const Registration_options options = {.kind = Map_kind::RIGID, .number_of_maps = 3};
 
   const Surface_registration_3<TypeParam> found =
-      register_surfaces(points, solid.polygons, points, solid.polygons, parameters);
-  const auto expected = registered<CGAL::Sequential_tag>(solid, solid, parameters);
+      register_surfaces(points, solid.polygons, points, solid.polygons, options);
+  const auto expected = register_surfaces<CGAL::Parallel_if_available_tag>(solid.points, solid.polygons, solid.points,
+                                                                           solid.polygons, options);
   ASSERT_EQ(found.maps.size(), expected.maps.size());
   ASSERT_EQ(found.maps.size(), 3);
   for (std::size_t n = 0; n < 3; ++n) {
@@ -134,12 +141,20 @@ TYPED_TEST(Register_meshes_of_kernels_long, frames_and_slippage_are_those_that_w
   m.pair->frames[1][2] = Vector_3(7, 8, 9);
   found.slippage.generators.emplace_back();
   found.reason = "a reason";
+  found.scales = {{0.5, 0.25}};
+  found.is_by_triangles = true;
+  found.maps_left_out = 7;
+  found.advice = {Registration_advice::SAME_SCALE};
   const auto copy = internal::in_kernel<TypeParam>(found);
   ASSERT_TRUE(copy.maps.at(0).pair);
   EXPECT_EQ(copy.maps[0].pair->points[1], typename TypeParam::Point_3(FT(4), FT(5), FT(6)));
   EXPECT_EQ(copy.maps[0].pair->frames[1][2], typename TypeParam::Vector_3(FT(7), FT(8), FT(9)));
   EXPECT_EQ(copy.slippage.generators.size(), 1);
   EXPECT_EQ(copy.reason, "a reason");
+  EXPECT_EQ(copy.scales, found.scales);
+  EXPECT_TRUE(copy.is_by_triangles);
+  EXPECT_EQ(copy.maps_left_out, 7u);
+  EXPECT_EQ(copy.advice, found.advice);
 }
 
 TEST(Register_meshes, another_triangulation_is_the_same_surface) {
@@ -154,7 +169,7 @@ TEST(Register_meshes, another_triangulation_is_the_same_surface) {
   target.points.push_back(center);
   Random random(9);
   const Map map = map_of(random_rotation(random), Eigen::Vector3d(1, 2, 3));
-  const auto found = registered(source, moved(target, map), parameters::map_kind(Map_kind::RIGID));
+  const auto found = registered(source, moved(target, map), rigid);
   ASSERT_TRUE(found.found()) << found.reason;
   EXPECT_LT(found.best().rms, 1e-6);
 }
@@ -167,7 +182,7 @@ TEST(Register_meshes, polygons_may_begin_at_any_corner) {
     Solid target = moved(source, map);
     for (auto& polygon : target.polygons)
       std::rotate(polygon.begin(), polygon.begin() + first % std::ptrdiff_t(polygon.size()), polygon.end());
-    const auto found = registered(source, target, parameters::map_kind(Map_kind::RIGID));
+    const auto found = registered(source, target, rigid);
     ASSERT_TRUE(found.found()) << first << ": " << found.reason;
     EXPECT_LT(found.best().rms, 1e-9) << first;
     EXPECT_EQ(*found.best().contradictions, (std::array{0., 0.})) << first;
@@ -177,7 +192,6 @@ TEST(Register_meshes, polygons_may_begin_at_any_corner) {
 TEST(Register_meshes, small_units_are_as_good_as_large_ones) {
   const Map smaller = map_of(1e-9 * Eigen::Matrix3d::Identity(), Eigen::Vector3d(1, 2, 3) * 1e-9);
   const Solid tiny = moved(L(.8), smaller);
-  const auto rigid = parameters::map_kind(Map_kind::RIGID);
   const auto found = registered(tiny, tiny, rigid);
   ASSERT_TRUE(found.found()) << found.reason;
   EXPECT_LT(found.best().rms / found.size, 1e-9);
@@ -189,19 +203,17 @@ TEST(Register_meshes, small_units_are_as_good_as_large_ones) {
 }
 
 TEST(Register_meshes_long, small_differences_of_planes_are_seen_unless_they_are_tolerated) {
-  const auto rigid = parameters::map_kind(Map_kind::RIGID);
   for (const double difference : {.001, .005})
     EXPECT_FALSE(registered(box(1, .7, .4), box(1, .7, .4 + difference), rigid).found()) << difference;
-  const auto found = registered(box(1, .7, .4), box(1, .7, .405), rigid.tolerance(.01));
+  const auto found = registered(box(1, .7, .4), box(1, .7, .405), {.kind = Map_kind::RIGID, .tolerance = .01});
   ASSERT_TRUE(found.found());
   EXPECT_GT(found.best().rms / found.size, 1e-4);
   EXPECT_LT(found.best().rms / found.size, .01);
 }
 
-TEST(Register_meshes, the_least_overlap_does_not_change_what_lies_on_the_other_surface) {
-  const auto rigid = parameters::map_kind(Map_kind::RIGID);
-  const auto few = registered(box(1, .7, .4), box(1, .7, .4), rigid.least_overlap(0)),
-             all = registered(box(1, .7, .4), box(1, .7, .4), rigid.least_overlap(1));
+TEST(Register_meshes, the_min_overlap_does_not_change_what_lies_on_the_other_surface) {
+  const auto few = registered(box(1, .7, .4), box(1, .7, .4), {.kind = Map_kind::RIGID, .min_overlap = 0}),
+             all = registered(box(1, .7, .4), box(1, .7, .4), {.kind = Map_kind::RIGID, .min_overlap = 1});
   ASSERT_TRUE(few.found() && all.found());
   EXPECT_EQ(few.best().inliers, all.best().inliers);
   EXPECT_EQ(few.best().inliers[0], 1);
@@ -218,18 +230,23 @@ TEST(Register_meshes, points_of_vertices_may_be_anywhere) {
     place[v] = target.point(v) + Vector_3(5, 6, 7);
     target.point(v) = CGAL::ORIGIN;
   }
-  const auto rigid = parameters::map_kind(Map_kind::RIGID);
-  const auto there = register_surfaces(source, target, rigid, parameters::vertex_point_map(place));
+  const auto there = register_surfaces(source, target, rigid, {}, parameters::vertex_point_map(place));
   ASSERT_TRUE(there.found()) << there.reason;
   const Point_3 center(.5, 1, 1.5);
   EXPECT_LT(CGAL::squared_distance(there.best().map(center), center + Vector_3(5, 6, 7)), 1e-18);
-  const auto back = register_surfaces(target, source, rigid.vertex_point_map(place));
+  const auto back = register_surfaces(target, source, rigid, parameters::vertex_point_map(place));
   ASSERT_TRUE(back.found()) << back.reason;
   EXPECT_LT(CGAL::squared_distance(back.best().map(center + Vector_3(5, 6, 7)), center), 1e-18);
 }
 
 TEST(Register_meshes_long, a_coarse_scan_of_the_same_object_is_alike_by_the_one_map_that_stands_out) {
-  const auto similar = parameters::map_kind(Map_kind::SIMILARITY);
+  const auto registered_as_similar = [](const test::Fit_mesh& source, const test::Fit_mesh& target) {
+    const auto triangles = [](const test::Fit_mesh& mesh) {
+      return internal::triangles_of_graph(mesh, internal::No_parameters());
+    };
+    return internal::registration_of_triangles(true, triangles(source), triangles(target),
+                                               {.kind = Map_kind::SIMILARITY});
+  };
   Random random(3);
   const Map map = map_of(9.8 * random_rotation(random), Eigen::Vector3d(1, 2, 3));
   const auto animal = make_analytic_traits<Kernel>(
@@ -240,13 +257,13 @@ TEST(Register_meshes_long, a_coarse_scan_of_the_same_object_is_alike_by_the_one_
       },
       CGAL::Bbox_3(-1.5, -1.5, -1.5, 1.5, 1.5, 1.5));
   const auto mesh_with = [](const auto& traits, std::size_t nodes) {
-    return to_surface_mesh(marching_cubes(traits, parameters::number_of_nodes(nodes)));
+    return to_surface_mesh(marching_cubes(traits, {.resolution = nodes}));
   };
   const test::Fit_mesh fine = mesh_with(animal, 50);
   test::Fit_mesh coarse = mesh_with(animal, 20);
   test::add_noise(coarse, .012);
   for (const auto v : coarse.vertices()) coarse.point(v) = map(coarse.point(v));
-  const auto found = register_surfaces(fine, coarse, similar);
+  const auto found = registered_as_similar(fine, coarse);
   ASSERT_TRUE(found.found()) << found.reason;
   EXPECT_GT(found.best().rms / found.size, .01) << "it is not equal";
   for (const auto v : fine.vertices())
@@ -258,31 +275,30 @@ TEST(Register_meshes_long, a_coarse_scan_of_the_same_object_is_alike_by_the_one_
   const test::Fit_mesh smooth = mesh_with(ellipsoid, 12);
   test::Fit_mesh rough = smooth;
   test::add_noise(rough, .015);
-  EXPECT_FALSE(register_surfaces(smooth, rough, similar).found()) << "eight maps are as good";
+  EXPECT_FALSE(registered_as_similar(smooth, rough).found()) << "eight maps are as good";
 }
 
 TEST(Register_meshes, reflections_and_sizes_are_as_asked_for) {
   const Solid source = {{{0, 0, 0}, {2, 0, 0}, {.3, 1.1, 0}, {.2, .4, 1.6}}, tetrahedron().polygons};
   const Solid mirrored = moved(source, map_of(Eigen::Vector3d(1, 1, -1).asDiagonal(), Eigen::Vector3d(1, 0, 0)));
   const Solid larger = moved(source, map_of(1.5 * Eigen::Matrix3d::Identity(), Eigen::Vector3d(1, 0, 0)));
-  const auto rigid = parameters::map_kind(Map_kind::RIGID);
   EXPECT_TRUE(registered(source, mirrored, rigid).found());
-  EXPECT_FALSE(registered(source, mirrored, rigid.reflections(false)).found());
+  EXPECT_FALSE(registered(source, mirrored, {.kind = Map_kind::RIGID, .reflections = false}).found());
   EXPECT_FALSE(registered(source, larger, rigid).found());
-  EXPECT_TRUE(registered(source, larger, parameters::map_kind(Map_kind::SIMILARITY)).found());
+  EXPECT_TRUE(registered(source, larger, {.kind = Map_kind::SIMILARITY}).found());
 }
 
 TEST(Register_meshes_long, solids_that_differ_have_no_map) {
   for (const auto& [source, target] : {std::pair(box(1, .7, .4), box(1, .75, .4)),
                                        {L(), cube_without_corner(.5)},
                                        {tetrahedron(), prism(regular(6), 1.3)}})
-    EXPECT_FALSE(registered(source, target, parameters::map_kind(Map_kind::SIMILARITY)).found());
+    EXPECT_FALSE(registered(source, target, {.kind = Map_kind::SIMILARITY}).found());
 }
 
 TEST(Register_meshes, planes_have_no_evidence) {
   const Solid square = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}}};
   for (const Map_kind kind : {Map_kind::RIGID, Map_kind::AFFINE})
-    EXPECT_FALSE(registered(square, square, parameters::map_kind(kind)).found());
+    EXPECT_FALSE(registered(square, square, {.kind = kind}).found());
 }
 
 TEST(Register_meshes, a_map_of_a_surface_that_turns_is_one_of_a_family) {
@@ -296,7 +312,7 @@ TEST(Register_meshes, a_map_of_a_surface_that_turns_is_one_of_a_family) {
       const auto vertex = [](std::size_t ring, std::size_t side) { return ring % rings * sides + side % sides; };
       torus.polygons.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
     }
-  const auto of_torus = registered(torus, torus, parameters::map_kind(Map_kind::RIGID).number_of_maps(3));
+  const auto of_torus = registered(torus, torus, {.kind = Map_kind::RIGID, .number_of_maps = 3});
   ASSERT_TRUE(of_torus.found());
   EXPECT_EQ(of_torus.slippage.dimension(), 1u);
   EXPECT_LT(of_torus.slippage.rms, 2e-3);
@@ -306,8 +322,9 @@ TEST(Register_meshes, a_map_of_a_surface_that_turns_is_one_of_a_family) {
 TEST(Register_meshes, a_prism_of_many_sides_has_many_maps_and_does_not_turn) {
   CGAL::Surface_mesh<Point_3> prism;
   CGAL::make_regular_prism(40, prism, Point_3(0, 0, 0), 2., 1., true);
-  const auto of_prism = register_surfaces<CGAL::Parallel_if_available_tag>(
-      prism, prism, parameters::map_kind(Map_kind::RIGID).number_of_maps(3));
+  const auto triangles = internal::triangles_of_graph(prism, internal::No_parameters());
+  const auto of_prism =
+      internal::registration_of_triangles(true, triangles, triangles, {.kind = Map_kind::RIGID, .number_of_maps = 3});
   ASSERT_TRUE(of_prism.found());
   EXPECT_EQ(of_prism.slippage.dimension(), 0u);
   EXPECT_EQ(of_prism.maps.size(), 3u);
@@ -320,10 +337,13 @@ TEST(Register_meshes, what_makes_no_sense_is_refused) {
   Solid empty = solid, wrong = solid;
   empty.polygons.clear();
   wrong.polygons[0][0] = 7;
-  EXPECT_THROW(registered(empty, solid, parameters::default_values()), std::invalid_argument);
-  EXPECT_THROW(registered(solid, empty, parameters::default_values()), std::invalid_argument);
-  EXPECT_THROW(registered(solid, wrong, parameters::default_values()), std::invalid_argument);
-  EXPECT_THROW(registered(solid, solid, parameters::tolerance(.5)), std::invalid_argument);
+  const auto register_both = [](const Solid& source, const Solid& target, const Registration_options& options = {}) {
+    return register_surfaces(source.points, source.polygons, target.points, target.polygons, options);
+  };
+  EXPECT_THROW(register_both(empty, solid), std::invalid_argument);
+  EXPECT_THROW(register_both(solid, empty), std::invalid_argument);
+  EXPECT_THROW(register_both(solid, wrong), std::invalid_argument);
+  EXPECT_THROW(register_both(solid, solid, {.tolerance = .5}), Input_error);
 }
 
 TEST(Register_meshes, formulas_with_planes_only_are_matched_as_wholes) {
@@ -331,10 +351,9 @@ TEST(Register_meshes, formulas_with_planes_only_are_matched_as_wholes) {
   Random random(4);
   const Map map = map_of(random_rotation(random), Eigen::Vector3d(1, -2, .5));
   const Image image(box, map);
-  const auto rigid = parameters::map_kind(Map_kind::RIGID);
   const auto points = points_on_surface(box, 20), points_of_image = points_on_surface(image, 20);
-  const auto found =
-      register_surfaces<CGAL::Parallel_if_available_tag>(box, points, image, points_of_image, rigid.number_of_maps(8));
+  const auto found = register_surfaces<CGAL::Parallel_if_available_tag>(box, points, image, points_of_image,
+                                                                        {.kind = Map_kind::RIGID, .number_of_maps = 8});
   EXPECT_EQ(found.maps.size(), 8u);
   EXPECT_LT(found.best().rms, 1e-9);
   EXPECT_TRUE(
@@ -355,7 +374,7 @@ TEST(Register_pieces_long, a_piece_is_found_in_the_whole) {
             similarity = map_of(2.5 * random_rotation(random), shift);
   for (const auto& [kind, map] :
        {std::pair(Map_kind::RIGID, turn), {Map_kind::RIGID, reflection}, {Map_kind::SIMILARITY, similarity}}) {
-    const auto found = registered(piece, moved(wedge(), map), parameters::map_kind(kind));
+    const auto found = registered(piece, moved(wedge(), map), {.kind = kind});
     ASSERT_TRUE(found.found()) << found.reason;
     EXPECT_LT(greatest_distance(found.best().map, map, wedge()), 1e-9);
     EXPECT_LT(found.best().rms, 1e-9);
@@ -364,15 +383,14 @@ TEST(Register_pieces_long, a_piece_is_found_in_the_whole) {
     EXPECT_LT(found.best().log10_false_alarms, -30);
     EXPECT_FALSE(found.best().pair);
   }
-  EXPECT_FALSE(
-      registered(piece, moved(wedge(), reflection), parameters::map_kind(Map_kind::RIGID).reflections(false)).found());
+  EXPECT_FALSE(registered(piece, moved(wedge(), reflection), {.kind = Map_kind::RIGID, .reflections = false}).found());
 }
 
 TEST(Register_pieces, two_pieces_are_joined) {
   Random random(6);
   const Map map = map_of(random_rotation(random), Eigen::Vector3d(1, 2, 3));
   const Solid source = clipped(wedge(), oblique, .7), target = clipped(wedge(), -oblique, -.15);
-  const auto found = registered(source, moved(target, map), parameters::map_kind(Map_kind::RIGID));
+  const auto found = registered(source, moved(target, map), rigid);
   ASSERT_TRUE(found.found()) << found.reason;
   EXPECT_LT(greatest_distance(found.best().map, map, wedge()), 1e-9);
   EXPECT_LT(found.best().inliers[0], .95);
@@ -384,7 +402,7 @@ TEST(Register_pieces_long, those_of_other_solids_contradict_every_map) {
   for (const auto& [kind, other] : {std::pair(Map_kind::RIGID, box(1, .7, .4)),
                                     {Map_kind::SIMILARITY, box(1, .7, .4)},
                                     {Map_kind::RIGID, cube_without_corner(.5)}}) {
-    const auto found = registered(piece, other, parameters::map_kind(kind));
+    const auto found = registered(piece, other, {.kind = kind});
     EXPECT_FALSE(found.found());
     EXPECT_FALSE(found.reason.empty());
   }
@@ -403,7 +421,7 @@ Solid joined(Solid a, const Solid& b) {
 TEST(Register_pieces, where_solids_differ_is_told) {
   const Map above = map_of(Eigen::Matrix3d::Identity(), Eigen::Vector3d(.3, -.2, .4));
   const Solid plate = L(.8), plate_with_boss = joined(plate, moved(box(.05, .06, .04), above));
-  const auto found = registered(plate, plate_with_boss, parameters::map_kind(Map_kind::RIGID));
+  const auto found = registered(plate, plate_with_boss, rigid);
   ASSERT_TRUE(found.found()) << found.reason;
   EXPECT_EQ(found.best().contradictions->at(0), 0);
   EXPECT_GT(found.best().contradictions->at(1), .001);
@@ -412,49 +430,12 @@ TEST(Register_pieces, where_solids_differ_is_told) {
 
 TEST(Register_pieces, the_next_best_map_is_known_whether_one_or_all_are_asked_for) {
   const Solid whole = box(1, .7, .4), piece = clipped(whole, oblique, .9);
-  const auto rigid = parameters::map_kind(Map_kind::RIGID);
-  const auto one = registered(piece, whole, rigid), all = registered(piece, whole, rigid.number_of_maps(20));
+  const auto one = registered(piece, whole, rigid),
+             all = registered(piece, whole, {.kind = Map_kind::RIGID, .number_of_maps = 20});
   ASSERT_EQ(one.maps.size(), 1u) << one.reason;
   EXPECT_EQ(all.maps.size(), 8u) << "a box has eight symmetries";
   ASSERT_TRUE(one.next_best_rms);
   EXPECT_LT(*one.next_best_rms, 1e-9);
-}
-
-TEST(Contradictions_of_meshes, they_are_the_parts_off_a_surface_that_goes_on) {
-  const Solid low = prism(regular(60), 1), high = prism(regular(60), 2);
-  const auto distance = 1e-3;
-  const auto closed = contradictions_of_meshes(low.points, low.polygons, high.points, high.polygons, distance);
-  EXPECT_TRUE(closed.are_closed);
-  EXPECT_NEAR(closed.parts[0], .25, .01); // one of two caps with the area pi, beside a side of 2 pi
-  EXPECT_NEAR(closed.parts[1], .5, .01);  // half of the side, and the cap
-  EXPECT_NEAR(closed.inliers[0], .75, .01);
-  EXPECT_NEAR(closed.inliers[1], .5, .01);
-  Solid open = low;
-  open.polygons.pop_back(), open.polygons.pop_back();
-  const auto tube = contradictions_of_meshes(open.points, open.polygons, high.points, high.polygons, distance);
-  EXPECT_FALSE(tube.are_closed);
-  EXPECT_EQ(tube.parts[0], 0);
-  EXPECT_LT(tube.parts[1], .01);
-  for (auto& polygon : open.polygons) std::reverse(polygon.begin(), polygon.end());
-  const auto inside_out = contradictions_of_meshes(open.points, open.polygons, high.points, high.polygons, distance);
-  EXPECT_EQ(inside_out.parts, tube.parts);
-}
-
-TEST(Contradictions_of_meshes, sheets_as_far_away_as_a_piece_is_large_are_none) {
-  Solid face = box(1, 1, 1), boxes = face;
-  for (const Point_3& p : face.points) boxes.points.push_back(p + Vector_3(0, 0, 3));
-  for (auto polygon : face.polygons) {
-    for (auto& v : polygon) v += face.points.size();
-    boxes.polygons.push_back(polygon);
-  }
-  for (const auto& polygon : face.polygons) {
-    Solid one = face;
-    one.polygons = {polygon};
-    const auto result = contradictions_of_meshes(one.points, one.polygons, boxes.points, boxes.polygons, 1e-3);
-    EXPECT_EQ(result.parts[0], 0);
-    EXPECT_EQ(result.parts[1], 0);
-    EXPECT_NEAR(result.inliers[0], 1, .01);
-  }
 }
 
 TEST(Register_pieces, what_slides_is_not_decided) {
@@ -462,21 +443,20 @@ TEST(Register_pieces, what_slides_is_not_decided) {
                        {{0, 1, 2, 3}, {3, 2, 5, 4}}};
   const Solid longer = {{{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {0, 1, 0}, {0, 1, .7}, {3, 1, .7}},
                         {{0, 1, 2, 3}, {3, 2, 5, 4}}};
-  const auto found = registered(sheet, longer, parameters::map_kind(Map_kind::RIGID));
+  const auto found = registered(sheet, longer, rigid);
   EXPECT_FALSE(found.found());
   EXPECT_NE(found.reason.find("slide"), std::string::npos) << found.reason;
 }
 
 TEST(Register_pieces, other_kinds_of_maps_are_refused_with_a_reason) {
-  const auto found = registered(clipped(wedge(), oblique, .9), wedge(), parameters::map_kind(Map_kind::AFFINE));
+  const auto found = registered(clipped(wedge(), oblique, .9), wedge(), {});
   EXPECT_FALSE(found.found());
   EXPECT_NE(found.reason.find("similarities"), std::string::npos) << found.reason;
 }
 
 TEST(Register_pieces_long, threads_give_the_same_bits) {
   const Solid piece = clipped(wedge(), oblique, .9);
-  const auto rigid = parameters::map_kind(Map_kind::RIGID);
-  const auto a = registered<CGAL::Sequential_tag>(piece, wedge(), rigid), b = registered(piece, wedge(), rigid);
+  const auto a = registered(piece, wedge(), rigid, false), b = registered(piece, wedge(), rigid);
   ASSERT_TRUE(a.found());
   ASSERT_TRUE(b.found());
   EXPECT_EQ(matrix_of(a.best().map), matrix_of(b.best().map));

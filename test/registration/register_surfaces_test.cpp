@@ -2,6 +2,7 @@
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
 #include "support/registration_traits.h"
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/registration/is_affinely_equivalent.h>
 #include <equiaffine/registration/register_surfaces.h>
 
@@ -39,9 +40,8 @@ struct Pair {
       : source(surface.traits()), map(m), target(source, m), points(points_on_surface(source, 24)),
         target_points(points_on_surface(target, 27)) {}
 
-  template <class... Parameters>
-  Result result(const Parameters&... parameters) const {
-    return register_surfaces(source, points, target, target_points, parameters...);
+  Result result(const Registration_options& options = {}) const {
+    return register_surfaces(source, points, target, target_points, options);
   }
 };
 
@@ -72,11 +72,11 @@ TEST(Register_surfaces, one_pair_of_points_gives_the_affine_map_reflections_incl
 TEST(Register_surfaces, maps_of_fewer_parameters_are_of_their_kind) {
   Random random(2);
   const Map equiaffine_map = random_map(random, 5, 1);
-  expect_map(Pair(named("heart+"), equiaffine_map).result(parameters::map_kind(Map_kind::EQUIAFFINE)), equiaffine_map);
+  expect_map(Pair(named("heart+"), equiaffine_map).result({.kind = Map_kind::EQUIAFFINE}), equiaffine_map);
   const Eigen::Matrix3d rotation = random_rotation(random);
   for (const auto& [kind, scale] : {std::pair(Map_kind::RIGID, -1.0), std::pair(Map_kind::SIMILARITY, 1.7)}) {
     const Map map = map_of(scale * rotation, Eigen::Vector3d(1, 2, 3));
-    const Result result = Pair(named("ellipsoid+"), map).result(parameters::map_kind(kind));
+    const Result result = Pair(named("ellipsoid+"), map).result({.kind = kind});
     expect_map(result, map);
     const Eigen::Matrix3d found = matrix_of(result.best().map) / scale;
     EXPECT_LT((found * found.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-13);
@@ -86,7 +86,7 @@ TEST(Register_surfaces, maps_of_fewer_parameters_are_of_their_kind) {
 TEST(Register_surfaces_long, a_mirror_image_is_found_by_a_reflection_only) {
   const Pair mirrored(named("quartic"), map_of(-Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()));
   expect_map(mirrored.result(), mirrored.map);
-  const Result none = mirrored.result(parameters::reflections(false));
+  const Result none = mirrored.result({.reflections = false});
   EXPECT_FALSE(none.found());
   EXPECT_TRUE(none.maps.empty());
 }
@@ -161,7 +161,7 @@ TEST(Register_surfaces, all_maps_are_found_when_asked) {
   Random random(5);
   const Map map = random_map(random, 4, 1.5);
   const Pair pair(symmetric, map);
-  const Result result = pair.result(parameters::number_of_maps(5));
+  const Result result = pair.result({.number_of_maps = 5});
   ASSERT_EQ(result.maps.size(), 2u);
   const Map mirror(-1, 0, 0, 0, 1, 0, 0, 0, 1);
   const double first = error_of(result.maps[0].map, map), second = error_of(result.maps[1].map, map);
@@ -204,7 +204,7 @@ TEST(Register_surfaces, quadrics_whose_axes_differ_have_rigid_maps_from_pairs_of
   Random random(10);
   const Map map = map_of(random_rotation(random), Eigen::Vector3d(1, 2, 3));
   const Pair ellipsoids({"", "x^2+2*y^2+3*z^2-1", cube(1.2)}, map);
-  const Result result = ellipsoids.result(parameters::map_kind(Map_kind::RIGID).number_of_maps(20));
+  const Result result = ellipsoids.result({.kind = Map_kind::RIGID, .number_of_maps = 20});
   EXPECT_EQ(result.maps.size(), 8u) << "an ellipsoid has as many rigid symmetries";
   EXPECT_EQ(result.slippage.dimension(), 0u);
   for (const auto& found : result.maps) {
@@ -242,7 +242,10 @@ TEST(Register_surfaces, equivalent_surfaces_are_moved_onto_each_other_all_of_the
 TEST(Register_surfaces, planes_and_three_points_have_no_map) {
   const Formula plane(Expression_3("x + 2*y - z"), cube(1));
   const auto points = points_on_surface(plane, 10);
-  EXPECT_FALSE(register_surfaces(plane, points, plane, points).found());
+  const Result none = register_surfaces(plane, points, plane, points);
+  EXPECT_FALSE(none.found());
+  EXPECT_EQ(none.advice,
+            (std::vector{Registration_advice::SIMILARITIES_OF_FRAMES, Registration_advice::MORE_IN_COMMON}));
   const Formula surface = named("quartic").traits();
   const auto all = points_on_surface(surface, 20);
   const std::vector<Point_3> three(all.begin(), all.begin() + 3);
@@ -263,11 +266,18 @@ TEST(Register_surfaces, what_makes_no_sense_is_refused) {
   const std::vector<Point_3> none;
   EXPECT_THROW(register_surfaces(surface, none, surface, points), std::invalid_argument);
   EXPECT_THROW(register_surfaces(surface, points, surface, none), std::invalid_argument);
-  EXPECT_THROW(register_surfaces(surface, points, surface, points, parameters::least_overlap(2)),
-               std::invalid_argument);
-  EXPECT_THROW(register_surfaces(surface, points, surface, points, parameters::number_of_maps(0)),
-               std::invalid_argument);
-  EXPECT_THROW(register_surfaces(surface, points, surface, points, parameters::tolerance(-1)), std::invalid_argument);
+  const auto wrong_field = [&](const Registration_options& options) -> std::string {
+    try {
+      register_surfaces(surface, points, surface, points, options);
+    } catch (const Input_error& error) {
+      return error.field();
+    }
+    return "none";
+  };
+  EXPECT_EQ(wrong_field({.min_overlap = 2}), "min_overlap");
+  EXPECT_EQ(wrong_field({.number_of_maps = 0}), "number_of_maps");
+  EXPECT_EQ(wrong_field({.tolerance = -1}), "tolerance");
+  EXPECT_EQ(wrong_field({.fit = {.degree = 3}}), "fit.degree");
 }
 
 } // namespace register_surfaces_test

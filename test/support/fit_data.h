@@ -46,7 +46,7 @@ inline auto metaballs() { return make_analytic_traits<Fit_kernel>(Metaballs(), C
 
 /// The vertices lie on the surface exactly; `nodes` is the number of nodes of the grid along an axis.
 inline Fit_mesh metaballs_mesh(std::size_t nodes) {
-  return to_surface_mesh(marching_cubes(metaballs(), parameters::number_of_nodes(nodes)));
+  return to_surface_mesh(marching_cubes(metaballs(), {.resolution = nodes}));
 }
 
 inline std::vector<Fit_kernel::Point_3> points_of(const Fit_mesh& mesh) {

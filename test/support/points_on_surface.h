@@ -14,7 +14,7 @@
 template <class Traits>
 std::vector<typename Traits::Point_3> points_on_surface(const Traits& traits, std::size_t n, std::size_t most = 5000,
                                                         unsigned seed = 1) {
-  auto points = equiaffine::marching_cubes(traits, equiaffine::parameters::number_of_nodes(n)).points;
+  auto points = equiaffine::marching_cubes(traits, {.resolution = n}).points;
   std::minstd_rand random(seed);
   for (std::size_t k = 0; k < std::min(most, points.size()); ++k)
     std::swap(points[k], points[k + random() % (points.size() - k)]);

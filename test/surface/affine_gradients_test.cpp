@@ -177,7 +177,7 @@ TEST(Affine_gradients, of_a_volume_are_those_of_its_spline) {
   const auto f = [](const auto& p) { return p.x() * p.x() * p.x() * p.x() + p.y() * p.y() + 2 * p.z() * p.z() - 1; };
   const Lattice_3<Kernel> lattice({40, 40, 40}, CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
   const auto exact = make_analytic_traits<Kernel>(Expression_3("x^4+y^2+2*z^2-1"), lattice.bbox());
-  const Sampled_function_traits_3 sampled(sample_on_lattice(f, lattice), {.degree = 9});
+  const Sampled_function_traits_3 sampled(sample_on_lattice(f, lattice), {.spline_degree = 9});
   const Kernel::Point_3 p(.7, .5, .3);
   const auto norms = affine_gradient_norms(sampled, p), expected = affine_gradient_norms(exact, p);
   for (std::size_t n = 0; n < 3; ++n) EXPECT_NEAR(norms[n], expected[n], 1e-7 * expected[n]);

@@ -35,7 +35,7 @@ struct Torus {
 
 TEST(Parabolic_curves, those_of_a_torus_are_its_two_highest_circles) {
   const auto traits = make_analytic_traits<Kernel>(Torus(), CGAL::Bbox_3(-.8, -.8, -.3, .8, .8, .3));
-  const auto curves = parabolic_curves(marching_cubes(traits, parameters::number_of_nodes(40)), traits);
+  const auto curves = parabolic_curves(marching_cubes(traits, {.resolution = 40}), traits);
   ASSERT_EQ(curves.polylines.size(), 2u);
   EXPECT_EQ(curves.unconverged_points, 0u);
   for (const auto& line : curves.polylines) {
@@ -53,7 +53,7 @@ TEST(Parabolic_curves, those_of_a_torus_are_its_two_highest_circles) {
 
 TEST(Parabolic_curves, those_of_a_graph_are_those_of_its_triangles) {
   const auto traits = make_analytic_traits<Kernel>(Torus(), CGAL::Bbox_3(-.8, -.8, -.3, .8, .8, .3));
-  const auto surface = marching_cubes(traits, parameters::number_of_nodes(40));
+  const auto surface = marching_cubes(traits, {.resolution = 40});
   const auto expected = parabolic_curves(surface, traits);
   CGAL::Polyhedron_3<CGAL::Exact_predicates_inexact_constructions_kernel> polyhedron;
   to_face_graph(surface, polyhedron);
@@ -73,7 +73,7 @@ TEST(Parabolic_curves, points_are_exact_where_a_curve_crosses_a_line_of_double_z
   const auto traits =
       make_analytic_traits<Kernel>(Expression_3("z-x^4-y^4+.3*x^2-.2"), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
   for (const std::size_t nodes : {29, 30, 41}) { // an odd grid has vertices on the line y = 0
-    const auto curves = parabolic_curves(marching_cubes(traits, parameters::number_of_nodes(nodes)), traits);
+    const auto curves = parabolic_curves(marching_cubes(traits, {.resolution = nodes}), traits);
     EXPECT_EQ(curves.unconverged_points, 0u) << nodes;
     EXPECT_EQ(curves.polylines.size(), 2u) << nodes;
     for (const auto& line : curves.polylines)
@@ -87,7 +87,7 @@ TEST(Parabolic_curves, points_are_exact_where_a_curve_crosses_a_line_of_double_z
 TEST(Parabolic_curves, where_the_curvature_is_zero_but_for_rounding_there_are_none) {
   for (const char* text : {"z^2-x^2-y^2", "(x+.3*z)^2+(y-.2*x)^2-.5", "z-sin(x+2*y)"}) {
     const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-    const auto surface = marching_cubes(traits, parameters::number_of_nodes(30));
+    const auto surface = marching_cubes(traits, {.resolution = 30});
     EXPECT_TRUE(parabolic_curves(surface, traits).polylines.empty()) << text;
   }
 }
@@ -115,7 +115,7 @@ TEST(Parabolic_curves, curves_that_cross_end_where_they_do) {
     return z - sin(x) * sin(y);
   };
   const auto traits = make_analytic_traits<Kernel>(wave, CGAL::Bbox_3(-1.1, -1.2, -1, 2.9, 1.3, 1.5));
-  const auto curves = parabolic_curves(marching_cubes(traits, parameters::number_of_nodes(30)), traits);
+  const auto curves = parabolic_curves(marching_cubes(traits, {.resolution = 30}), traits);
   int arms = 0;
   for (const auto& line : curves.polylines) {
     EXPECT_FALSE(line.is_closed);
@@ -132,7 +132,7 @@ TEST(Parabolic_curves, curves_end_where_the_surface_leaves_the_box_and_threads_c
     return z - 0.3 * sin(3.0 * x) * (1.0 + 0.1 * y * y) - 0.3 * y * y;
   };
   const auto traits = make_analytic_traits<Kernel>(wave, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-  const auto surface = marching_cubes(traits, parameters::number_of_nodes(30));
+  const auto surface = marching_cubes(traits, {.resolution = 30});
   const auto curves = parabolic_curves(surface, traits),
              parallel = parabolic_curves<CGAL::Parallel_if_available_tag>(surface, traits);
   ASSERT_FALSE(curves.polylines.empty());
@@ -147,7 +147,7 @@ TEST(Parabolic_curves, curves_end_where_the_surface_leaves_the_box_and_threads_c
 TEST(Parabolic_curves, convex_surfaces_have_none) {
   const auto sphere = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z - 1.0; };
   const auto traits = make_analytic_traits<Kernel>(sphere, CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
-  EXPECT_TRUE(parabolic_curves(marching_cubes(traits, parameters::number_of_nodes(20)), traits).polylines.empty());
+  EXPECT_TRUE(parabolic_curves(marching_cubes(traits, {.resolution = 20}), traits).polylines.empty());
 }
 
 TEST(Write_curves, closed_curves_end_with_their_first_point_and_open_ones_do_not) {

@@ -23,7 +23,6 @@ namespace Sample_noise_test {
 using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Volume = Volume_3<Kernel>;
-constexpr auto scheme = Spline_scheme::QUASI_INTERPOLATION;
 
 double ellipsoid(double x, double y, double z) { return std::exp(x * x + y * y / 0.7 + z * z / 0.5 - 1) - 1; }
 
@@ -50,8 +49,8 @@ TEST(Sample_noise, other_kernels_of_doubles_have_the_same) {
   const Volume_3<Other> other = {Lattice_3<Other>(volume.lattice), volume.values};
   const Sample_noise noise = estimate_noise(volume, 0.);
   EXPECT_EQ(estimate_noise(other, 0.).deviation, noise.deviation);
-  EXPECT_GT(choose_smoothing(volume, noise, 7, scheme, 0.), 0);
-  EXPECT_EQ(choose_smoothing(other, noise, 7, scheme, 0.), choose_smoothing(volume, noise, 7, scheme, 0.));
+  EXPECT_GT(choose_smoothing(volume, noise, {.level = 0.}), 0);
+  EXPECT_EQ(choose_smoothing(other, noise, {.level = 0.}), choose_smoothing(volume, noise, {.level = 0.}));
 }
 
 TEST(Sample_noise, floats_and_integers_have_that_of_their_rounding) {
@@ -79,7 +78,7 @@ TEST(Sample_noise, nodes_without_a_value_do_not_matter_and_small_volumes_say_not
 
 TEST(Sample_noise, the_chosen_scale_has_nearly_the_least_error_of_fourth_derivatives) {
   const auto exact = sample(64, 0);
-  const Spline_function_3<Kernel> reference(exact, {.degree = 9});
+  const Spline_function_3<Kernel> reference(exact, {.spline_degree = 9});
   for (const double deviation : {0.0, 1e-7, 1e-4}) {
     const Volume volume = sample(64, deviation);
     const Sample_noise noise = estimate_noise(volume, 0.);
@@ -97,7 +96,7 @@ TEST(Sample_noise, the_chosen_scale_has_nearly_the_least_error_of_fourth_derivat
     };
     double least = std::numeric_limits<double>::infinity();
     for (const double scale : {0.0, 2.0, 3.0, 4.0, 6.0}) least = std::min(least, error(scale));
-    const double chosen = choose_smoothing(volume, noise, 7, scheme, {0.});
+    const double chosen = choose_smoothing(volume, noise, {.level = 0.});
     if (deviation == 0) EXPECT_EQ(chosen, 0);
     else EXPECT_LE(error(chosen), 5 * least) << "scale " << chosen << " for noise " << deviation;
   }
@@ -107,7 +106,7 @@ TEST(Sample_noise, more_noise_needs_a_larger_scale) {
   double last = 0;
   for (const double deviation : {1e-9, 1e-6, 1e-3}) {
     const Volume volume = sample(64, deviation);
-    const double scale = choose_smoothing(volume, estimate_noise(volume, 0.), 7, scheme, {0.});
+    const double scale = choose_smoothing(volume, estimate_noise(volume, 0.), {.level = 0.});
     EXPECT_GT(scale, last);
     last = scale;
   }
@@ -126,7 +125,7 @@ TEST(Sample_noise, details_of_a_few_voxels_are_not_smoothed_away) {
   };
   for (const double deviation : {0.01, 0.1}) {
     const Volume volume = sample_volume(lattice, wall, deviation);
-    const double scale = choose_smoothing(volume, estimate_noise(volume, {isovalue}), 7, scheme, {isovalue});
+    const double scale = choose_smoothing(volume, estimate_noise(volume, isovalue), {.level = isovalue});
     const auto left = inside(smooth_volume(volume, scale));
     EXPECT_NEAR(double(left) / double(inside(volume)), 1, 0.05) << "scale " << scale << " for noise " << deviation;
   }
@@ -134,22 +133,61 @@ TEST(Sample_noise, details_of_a_few_voxels_are_not_smoothed_away) {
 
 TEST(Sample_noise, noise_is_smoothed_away_though_that_moves_the_surface) {
   const Volume volume = sample(64, 0.1); // by more than a voxel in a fifth of the nodes
-  EXPECT_GE(choose_smoothing(volume, estimate_noise(volume, 0.), 7, scheme, {0.}), 6);
+  EXPECT_GE(choose_smoothing(volume, estimate_noise(volume, 0.), {.level = 0.}), 6);
 }
 
 TEST(Sample_noise, a_scale_whose_windows_reach_beyond_a_mask_is_not_chosen) {
   Volume volume = sample(64, 0.01);
-  const double smoothing_of_all = choose_smoothing(volume, estimate_noise(volume, 0.), 7, scheme, {0.});
+  const double smoothing_of_all = choose_smoothing(volume, estimate_noise(volume, 0.), {.level = 0.});
   EXPECT_GE(smoothing_of_all, 5);
   for (double& value : volume.values)
     if (value > 2) value = std::numeric_limits<double>::quiet_NaN(); // some 10 nodes from the surface
-  const double smoothing = choose_smoothing(volume, estimate_noise(volume, 0.), 7, scheme, {0.});
+  const double smoothing = choose_smoothing(volume, estimate_noise(volume, 0.), {.level = 0.});
   EXPECT_LT(smoothing, smoothing_of_all);
   const Spline_function_3<Kernel> spline(volume, {.smoothing = smoothing});
   for (const double x : {-1., 1.}) EXPECT_TRUE(std::isfinite(spline.value(Kernel::Point_3(x, 0, 0))));
   for (double& value : volume.values)
     if (std::abs(value) > 0.05) value = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(choose_smoothing(volume, Sample_noise{0.01, 0}, 7, scheme, {0.}), 0) << "there is no spline at all";
+  EXPECT_EQ(choose_smoothing(volume, Sample_noise{0.01, 0}, {.level = 0.}), 0) << "there is no spline at all";
+}
+
+TEST(Sample_noise, a_spline_without_a_smoothing_has_that_of_the_noise) {
+  const Volume volume = sample(64, 1e-4);
+  const Smoothing_decision decision = decide_smoothing(volume, {.smoothing = {}, .level = 0});
+  EXPECT_TRUE(decision.is_chosen);
+  EXPECT_EQ(decision.noise.deviation, estimate_noise(volume, 0.).deviation);
+  EXPECT_EQ(decision.smoothing, choose_smoothing(volume, decision.noise, {.level = 0}));
+  EXPECT_FALSE(decision.distinct_values);
+  const Spline_function_3<Kernel> chosen(volume, {.smoothing = {}, .level = 0}),
+      given(volume, {.smoothing = decision.smoothing});
+  const Kernel::Point_3 p(0.7, 0.3, -0.2);
+  EXPECT_EQ(chosen.taylor(p).coefficients(), given.taylor(p).coefficients());
+  EXPECT_NE(chosen.value(p), Spline_function_3<Kernel>(volume).value(p));
+}
+
+TEST(Sample_noise, a_smoothing_that_is_given_stays_and_noise_is_measured_all_the_same) {
+  const Volume volume = sample(64, 1e-4);
+  const Smoothing_decision decision = decide_smoothing(volume, {.smoothing = 2, .level = 0});
+  EXPECT_FALSE(decision.is_chosen);
+  EXPECT_EQ(decision.smoothing, 2);
+  EXPECT_EQ(decision.noise.deviation, estimate_noise(volume, 0.).deviation);
+}
+
+TEST(Sample_noise, a_smoothing_that_is_chosen_leaves_the_voxels_of_a_mask_on_their_sides) {
+  Volume rod{Lattice_3<Kernel>({40, 40, 60}, CGAL::Bbox_3(0, 0, 0, 39, 39, 59)), std::vector<double>(96000, 0)};
+  std::vector<Kernel::Point_3> inside;
+  for (std::size_t k = 10; k < 50; ++k)
+    for (std::size_t j = 18; j < 22; ++j)
+      for (std::size_t i = 18; i < 22; ++i) {
+        rod.values[rod.lattice.index(i, j, k)] = 1;
+        inside.push_back(rod.lattice.point(double(i), double(j), double(k)));
+      }
+  const Smoothing_decision decision = decide_smoothing(rod, {.smoothing = {}, .level = 0.5});
+  EXPECT_EQ(decision.distinct_values, std::size_t(2));
+  EXPECT_LE(decision.smoothing, choose_smoothing(rod, decision.noise, {.level = 0.5}));
+  const Spline_function_3<Kernel> spline(rod, {.smoothing = decision.smoothing});
+  const auto kept = std::count_if(inside.begin(), inside.end(), [&](const auto& p) { return spline.value(p) > 0.5; });
+  EXPECT_GE(10 * kept, 9 * std::ptrdiff_t(inside.size()));
 }
 
 TEST(Sample_noise, nodes_beside_the_level_set_are_those_with_a_neighbor_on_the_other_side) {

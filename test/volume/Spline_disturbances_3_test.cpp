@@ -24,7 +24,7 @@ using Jet = Jet_3<double>;
 // Expansions in the middle of a cell of the splines through unit impulses, one for each node of the lattice: what each
 // sample contributes to the expansion of any spline.
 std::vector<Jet> contributions_of_samples(const Lattice_3<Kernel>& lattice, const std::array<std::size_t, 3>& cell,
-                                          const Spline_parameters& parameters) {
+                                          const Volume_options& parameters) {
   const auto middle = lattice.point(double(cell[0]) + 0.5, double(cell[1]) + 0.5, double(cell[2]) + 0.5);
   std::vector<Jet> result;
   for (std::size_t n = 0; n < lattice.number_of_nodes(); ++n) {
@@ -51,7 +51,7 @@ double sum_of_products(const std::vector<Jet>& jets, std::size_t m, std::size_t 
 
 TEST(Spline_disturbances_3, their_covariance_is_that_of_the_expansion_under_white_noise) {
   const Lattice_3<Kernel> lattice({7, 8, 7}, CGAL::Bbox_3(0, 0, 0, 6, 7, 6));
-  const Spline_parameters parameters = {.degree = 5, .scheme = Spline_scheme::INTERPOLATION};
+  const Volume_options parameters = {.spline_scheme = Spline_scheme::INTERPOLATION, .spline_degree = 5};
   const double deviation = 0.25;
   const Spline spline(Volume{lattice, std::vector<double>(lattice.number_of_nodes())}, parameters);
   const Spline_disturbances_3<Kernel> of_noise(spline, 0, deviation);

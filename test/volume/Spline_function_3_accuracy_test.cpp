@@ -84,7 +84,7 @@ void expect_reproduction(const Lattice_3& lattice, double row_sum,
   double greatest = 0;
   for (const double value : volume.values) greatest = std::max(greatest, std::abs(value));
   const auto bounds = rounding_bounds<Degree>(greatest, row_sum, scheme);
-  const Spline_function_3 spline(volume, {.degree = Degree, .scheme = scheme});
+  const Spline_function_3 spline(volume, {.spline_scheme = scheme, .spline_degree = Degree});
   for (const Point_3& p : points_of(lattice)) {
     const Jet_3 expected = jet_of(f, p), computed = spline.taylor(p);
     for (std::size_t n = 0; n < 35; ++n)
@@ -105,7 +105,7 @@ struct Greatest_errors {
 
 Greatest_errors errors_of_wave(std::size_t cells, int degree, Spline_scheme scheme) {
   const Lattice_3 lattice({cells + 1, cells + 1, cells + 1}, CGAL::Bbox_3(-1, -1.5, -2, 2, 2, 1.5));
-  const Spline_function_3 spline(sample(lattice, wave), {.degree = degree, .scheme = scheme});
+  const Spline_function_3 spline(sample(lattice, wave), {.spline_scheme = scheme, .spline_degree = degree});
   Greatest_errors errors{};
   // The points are the same on every lattice: in a corner, on faces and edges, in the middle.
   for (const Point_3& p : points_of(Lattice_3({5, 5, 5}, lattice.bbox()))) {
@@ -168,7 +168,7 @@ TEST(Spline_function_3, interpolation_has_the_samples_as_values_at_the_nodes) {
   const Lattice_3 lattice = skew_lattice(12, 15, 13);
   const Volume_3 volume = random_volume(lattice);
   const auto expect_samples = [&](int degree, double bound) {
-    const Spline_function_3 spline(volume, {.degree = degree, .scheme = Spline_scheme::INTERPOLATION});
+    const Spline_function_3 spline(volume, {.spline_scheme = Spline_scheme::INTERPOLATION, .spline_degree = degree});
     for (std::size_t i = 0; i < 12; ++i)
       for (std::size_t j = 0; j < 15; ++j)
         for (std::size_t k = 0; k < 13; ++k)
@@ -182,8 +182,8 @@ TEST(Spline_function_3, interpolation_has_the_samples_as_values_at_the_nodes) {
 TEST(Spline_function_3, the_scheme_of_the_paper_interpolates_expansions_by_convolution_at_the_nodes) {
   const Lattice_3 lattice = skew_lattice(9, 10, 11);
   const Volume_3 volume = random_volume(lattice);
-  const Spline_function_3 paper(volume, {.degree = 5, .scheme = Spline_scheme::PAPER}),
-      nodes(volume, {.degree = 5, .scheme = Spline_scheme::CONVOLUTION});
+  const Spline_function_3 paper(volume, {.spline_scheme = Spline_scheme::PAPER, .spline_degree = 5}),
+      nodes(volume, {.spline_scheme = Spline_scheme::CONVOLUTION, .spline_degree = 5});
   const auto bounds = rounding_bounds<5>(0.5, 4, Spline_scheme::CONVOLUTION);
   const auto expect_between = [&](const Point_3& p, const Point_3& q, double t) {
     const Jet_3 jet = paper.taylor(p + t * (q - p)), jet_p = nodes.taylor(p), jet_q = nodes.taylor(q);
@@ -213,7 +213,7 @@ TEST(Spline_function_3, convolution_takes_the_samples_as_coefficients) {
   // One sample 1 in the middle of zeros: the B-spline itself, of degree 5 with values 66, 26, 1 over 120 at integers.
   Volume_3 volume{unit_lattice(15, 15, 15), std::vector<double>(15 * 15 * 15)};
   volume.values[volume.lattice.index(7, 7, 7)] = 1;
-  const Spline_function_3 spline(volume, {.degree = 5, .scheme = Spline_scheme::CONVOLUTION});
+  const Spline_function_3 spline(volume, {.spline_scheme = Spline_scheme::CONVOLUTION, .spline_degree = 5});
   EXPECT_NEAR(spline.value(Point_3(7, 7, 7)), std::pow(66.0 / 120, 3), 8 * epsilon);
   EXPECT_NEAR(spline.value(Point_3(8, 5, 7)), 26.0 * 1 * 66 / (120 * 120 * 120), 8 * epsilon);
   EXPECT_EQ(spline.value(Point_3(10, 7, 7)), 0);

@@ -18,7 +18,7 @@ using namespace spline_samples;
 TEST(Spline_function_3, quasi_interpolation_errs_at_the_border_as_inside_to_one_more_degree) {
   for (const int degree : {5, 7}) {
     const auto power = [=](double x, double, double) { return std::pow((x - 10) / 4, degree + 1); };
-    const Spline_function_3 spline(sample(unit_lattice(21, 10, 10), power), {.degree = degree});
+    const Spline_function_3 spline(sample(unit_lattice(21, 10, 10), power), {.spline_degree = degree});
     for (const double t : {0.2, 0.6, 1.0}) { // that error has the period of the lattice
       const auto error = [&](double x) { return spline.value(Point_3(x, 5, 5)) - power(x, 5, 5); };
       EXPECT_GT(std::abs(error(10 + t)), 1e-8);
@@ -36,7 +36,7 @@ TEST(Spline_function_3,
   const auto edge = [&](double x, double y, double z) { return ball(x, y, z) + std::sin(x + 2 * y + 3 * z); };
   for (const int degree : {5, 7, 9}) {
     const auto border_degree = [&](const Volume_3& volume, Spline_scheme scheme) {
-      return Spline_function_3(volume, {.degree = degree, .scheme = scheme}).border_degree();
+      return Spline_function_3(volume, {.spline_scheme = scheme, .spline_degree = degree}).border_degree();
     };
     constexpr auto scheme = Spline_scheme::QUASI_INTERPOLATION;
     EXPECT_EQ(border_degree(sample(lattice, smooth), scheme), std::min(degree + 2, 9));
@@ -61,7 +61,7 @@ TEST(Spline_function_3, a_mask_beside_the_border_has_the_spline_that_it_has_far_
                       [=](double x, double y, double z) { return double(inside(x) && inside(y) && inside(z)); });
       };
       for (const double smoothing : {0., 1.5, 2.}) {
-        const equiaffine::Spline_parameters parameters = {.degree = degree, .smoothing = smoothing};
+        const equiaffine::Volume_options parameters = {.smoothing = smoothing, .spline_degree = degree};
         const Spline_function_3 near(block_in(gap), parameters), far(block_in(20), parameters);
         // Smoothed steps reach beyond the border, where they go on as constants.
         const double tolerance = smoothing > 0 ? 0.04 : 1e-14;
@@ -77,7 +77,7 @@ TEST(Spline_function_3, lines_that_end_at_zero_do_not_vote_by_their_rounding_err
   const Lattice_3 lattice = unit_lattice(12, 40, 12);
   // Along x the samples are linear, and zero up to rounding at the end of most lines, which are more than those along y.
   const auto f = [](double x, double y, double) { return (x - 11) / 7 * std::sin(y / 4) + 1e-16 * std::cos(y); };
-  EXPECT_EQ(Spline_function_3(sample(lattice, f), {.degree = 7}).border_degree(), 9);
+  EXPECT_EQ(Spline_function_3(sample(lattice, f), {.spline_degree = 7}).border_degree(), 9);
 }
 
 } // namespace Spline_function_3_border_test

@@ -45,7 +45,7 @@ TEST(Spline_function_3, bounds_enclose_the_values_in_a_box) {
 
 TEST(Spline_function_3, bounds_are_tight_where_the_coefficients_are_and_the_whole_line_outside) {
   Volume_3 volume = sample(unit_lattice(20, 20, 20), [](double x, double, double) { return x < 10 ? 3.0 : -5.0; });
-  const Spline_function_3 spline(volume, {.degree = 7, .scheme = Spline_scheme::CONVOLUTION});
+  const Spline_function_3 spline(volume, {.spline_scheme = Spline_scheme::CONVOLUTION, .spline_degree = 7});
   const auto constant = spline.bounds(CGAL::Bbox_3(1, 1, 1, 2, 2, 2));
   EXPECT_TRUE(constant.contains(3));
   EXPECT_LT(constant.upper() - constant.lower(), 1e-12);
@@ -78,7 +78,7 @@ TEST(Spline_function_3, first_order_bounds_enclose_values_and_gradients_in_a_box
                             Spline_scheme::INTERPOLATION, Spline_scheme::PAPER})
     for (const int degree : {5, 7, 9})
       for (const Lattice_3& lattice : {unit_lattice(17, 12, 13), skew_lattice(41, 12, 50)}) {
-        const Spline_function_3 spline(random_volume(lattice), {.degree = degree, .scheme = scheme});
+        const Spline_function_3 spline(random_volume(lattice), {.spline_scheme = scheme, .spline_degree = degree});
         std::size_t bounded = 0;
         for (const double side : {1.0, 0.5, 0.1, 0.01, 1e-4, 0.0})
           for (int n = 0; n < 40; ++n) {
@@ -109,7 +109,7 @@ TEST(Spline_function_3, first_order_bounds_enclose_values_and_gradients_in_a_box
 
 TEST(Spline_function_3, first_order_bounds_are_hardly_wider_than_the_ranges_at_the_border_of_noise_too) {
   for (const int degree : {5, 7, 9}) {
-    const Spline_function_3 spline(random_volume(unit_lattice(20, 21, 22)), {.degree = degree});
+    const Spline_function_3 spline(random_volume(unit_lattice(20, 21, 22)), {.spline_degree = degree});
     for (const Point_3& corner : {Point_3(0, 9.7, 8), Point_3(18.5, 0.2, 8), Point_3(7.6, 8, 9)})
       for (const double side : {0.5, 0.05}) {
         const Point_3 end = corner + side * Vector_3(1, 1, 1);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/error_field.h"
 #include <equiaffine/attributes/attributes.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/function/Sampled_function_traits_3.h>
@@ -96,8 +97,8 @@ struct Mesh {
   void add(const Function& function, const Cell_block& block, const Cell_block& known,
            const Attribute_selection& selection) {
     std::vector<Vertex_id> ids;
-    marching_cubes_in_slabs(
-        function,
+    marching_cubes_of_block(
+        function, block,
         [&](const Isosurface_slab_3<Kernel>& slab) {
           ids.insert(ids.end(), slab.vertex_ids.begin(), slab.vertex_ids.end());
           const Vertex_attributes attributes =
@@ -112,7 +113,7 @@ struct Mesh {
           }
           for (const auto& [a, b, c] : slab.triangles) triangles.push_back({ids[a], ids[b], ids[c]});
         },
-        parameters::cell_block(block).known_cells(known));
+        {}, known);
   }
 
   void sort() { std::sort(triangles.begin(), triangles.end()); }
@@ -121,7 +122,7 @@ struct Mesh {
 constexpr std::array<std::size_t, 3> nodes = {27, 24, 30};
 
 /// Expects that the functions of parts of a volume together have the mesh and the attributes of the whole one.
-void expect_same(const Spline_parameters& parameters, const std::array<std::vector<std::size_t>, 3>& ends,
+void expect_same(const Volume_options& parameters, const std::array<std::vector<std::size_t>, 3>& ends,
                  const char* attributes, const std::string& name) {
   const Attribute_selection selection = select_attributes(attributes);
   const Samples samples(nodes);
@@ -157,16 +158,16 @@ TEST(Parts_of_volumes, have_the_mesh_and_the_attributes_of_the_whole_one) {
                                                 two_axes = {{{0, 3, 14, x - 1}, {0, 11, y - 1}, {0, z - 1}}};
   for (const int degree : {5, 7, 9})
     for (const auto scheme : {Spline_scheme::CONVOLUTION, Spline_scheme::QUASI_INTERPOLATION})
-      expect_same({.degree = degree, .scheme = scheme}, degree == 7 ? one_axis : two_axes, "basic",
+      expect_same({.spline_scheme = scheme, .spline_degree = degree}, degree == 7 ? one_axis : two_axes, "basic",
                   "degree " + std::to_string(degree) + ", scheme " + std::to_string(int(scheme)));
-  expect_same({.scheme = Spline_scheme::PAPER}, two_axes, "normal", "the paper's scheme");
+  expect_same({.spline_scheme = Spline_scheme::PAPER}, two_axes, "normal", "the paper's scheme");
   expect_same({.smoothing = 1.6}, two_axes, "all", "smoothed");
   expect_same({}, {{{0, x - 1}, {0, 3, y - 1}, {0, z - 1}}}, "signature", "norms of gradients");
 }
 
 TEST(Parts_of_volumes, have_values_where_all_samples_are_known_and_only_there) {
   const Samples samples(nodes);
-  const Spline_parameters parameters = {.smoothing = 1.5};
+  const Volume_options parameters = {.smoothing = 1.5};
   const Cell_block wanted = {{0, 9, 17}, {4, 14, nodes[2] - 1}};
   const auto part_of = [&](const Cell_block& cells) {
     return Traits(samples.part(cells), parameters,
@@ -193,8 +194,11 @@ TEST(Parts_of_volumes, have_values_where_all_samples_are_known_and_only_there) {
     EXPECT_TRUE(std::isnan(value(part_of(less), place[0], place[1], place[2]))) << "axis " << a;
   }
   EXPECT_THROW(part_of({{3, 3, 3}, {8, 8, 8}}), std::invalid_argument);
-  EXPECT_THROW(Traits(samples.part(known), {.scheme = Spline_scheme::INTERPOLATION}, Volume_part{wanted}),
+  EXPECT_THROW(Traits(samples.part(known), {.spline_scheme = Spline_scheme::INTERPOLATION}, Volume_part{wanted}),
                std::invalid_argument);
+  EXPECT_EQ(error_field([&] { Traits(samples.part(known), {.smoothing = std::nullopt}, Volume_part{wanted}); }),
+            "smoothing")
+      << "the noise of all parts decides";
   EXPECT_THROW(samples.part({{0, 0, 0}, {1, 1, nodes[2]}}), std::invalid_argument);
 }
 
@@ -223,7 +227,7 @@ TEST(Parts_of_volumes, find_the_noise_and_the_smoothing_of_the_whole_one) {
   const std::vector<Cell_block> blocks = blocks_of(size, {{{0, 33, 69}, {0, 66}, {0, 1, 40, 74}}});
   struct Case {
     double deviation;
-    std::optional<double> isovalue;
+    std::optional<double> level;
     Spline_scheme scheme;
     bool has_integers = false; // and nodes without a value
   };
@@ -235,19 +239,20 @@ TEST(Parts_of_volumes, find_the_noise_and_the_smoothing_of_the_whole_one) {
     for (std::size_t n = 0; given.has_integers && n < samples.values.size(); ++n)
       samples.values[n] =
           n % 200003 == 100000 ? std::numeric_limits<float>::quiet_NaN() : std::round(100 * samples.values[n]);
-    const Sample_noise noise = estimate_noise(samples.whole(), given.isovalue);
-    const double smoothing = choose_smoothing(samples.whole(), noise, 7, given.scheme, given.isovalue);
+    const Volume_options options = {.spline_scheme = given.scheme, .level = given.level};
+    const Sample_noise noise = estimate_noise(samples.whole(), given.level);
+    const double smoothing = choose_smoothing(samples.whole(), noise, options);
     EXPECT_EQ(smoothing > 1, given.deviation > 0);
     constexpr std::size_t machines = 4; // of which the last one has no part
     std::array<Sample_noise, machines> noises;
     std::array<double, machines> smoothings;
     on_machines(machines, [&](std::size_t machine, const auto& gather) {
       Volume_parts_3<Kernel> volume{samples.lattice, {}, gather};
-      const Spline_parameters greatest = {.scheme = given.scheme, .smoothing = greatest_scale_to_choose};
+      const Volume_options greatest = {.smoothing = greatest_scale_to_choose, .spline_scheme = given.scheme};
       for (std::size_t n = machine; machine < machines - 1 && n < blocks.size(); n += machines - 1)
         volume.parts.push_back({samples.part(cells_to_know(blocks[n], size, greatest)), blocks[n]});
-      noises[machine] = estimate_noise(volume, given.isovalue);
-      smoothings[machine] = choose_smoothing(volume, noises[machine], 7, given.scheme, given.isovalue);
+      noises[machine] = estimate_noise(volume, given.level);
+      smoothings[machine] = choose_smoothing(volume, noises[machine], options);
     });
     for (std::size_t machine = 0; machine < machines; ++machine) {
       EXPECT_EQ(noises[machine].deviation, noise.deviation);
@@ -266,7 +271,8 @@ TEST(Parts_of_volumes, must_know_the_samples_with_which_noise_is_measured) {
   };
   EXPECT_THROW(estimate_noise(parts(5)), std::invalid_argument);
   const Sample_noise noise = estimate_noise(parts(6));
-  EXPECT_THROW(choose_smoothing(parts(6), noise, 7, Spline_scheme::INTERPOLATION), std::invalid_argument);
+  EXPECT_THROW(choose_smoothing(parts(6), noise, {.spline_scheme = Spline_scheme::INTERPOLATION}),
+               std::invalid_argument);
 }
 
 } // namespace parts_of_volumes_test

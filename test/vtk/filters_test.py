@@ -169,21 +169,21 @@ class Surface(unittest.TestCase):
         def mask(r):
             return (r < 20).astype(np.uint8)
 
-        mesh, messages = with_warnings(ball(mask), Isovalue=0.5)
+        mesh, messages = with_warnings(ball(mask), Level=0.5)
         self.assertEqual(mesh.GetPointData().GetScalars().GetName(), "mean_curvature")
         self.assertIn("the samples have 2 distinct values only, and curvatures are those of the steps between them",
                       messages[0])
-        messages = with_warnings(ball(mask), Isovalue=0.5, AutomaticSmoothing=True)[1]
+        messages = with_warnings(ball(mask), Level=0.5, AutomaticSmoothing=True)[1]
         self.assertFalse(any("distinct values" in message for message in messages))
-        self.assertEqual(with_warnings(ball(mask), Isovalue=0.5, Attributes="none")[1], [])
+        self.assertEqual(with_warnings(ball(mask), Level=0.5, Attributes="none")[1], [])
 
     def test_triangles_are_turned_to_the_side_of_normals_on_grids_of_both_hands(self):
         for matrix in ((1, 0, 0, 0, 1, 0, 0, 0, 1), (-1, 0, 0, 0, 1, 0, 0, 0, 1), (0, 1, 0, 0.6, 0, 0.8, -0.8, 0, 0.6)):
-            for against in (False, True):
+            for against in (0, 1):
                 image = ellipsoid()
                 image.SetDirectionMatrix(matrix)
                 image.SetSpacing(0.2, 0.7, 1.3)
-                mesh = surface(image, FlipNormals=against)
+                mesh = surface(image, Orientation=against)
                 triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
                 a, b, c = (points(mesh)[triangles[:, n]] for n in range(3))
                 sides = (np.cross(b - a, c - a) * array(mesh, "normal")[triangles[:, 0]]).sum(axis=1)
@@ -195,22 +195,22 @@ class Surface(unittest.TestCase):
                 self.assertEqual(edges.GetOutput().GetNumberOfCells(), 0, "the mesh has a boundary")
 
     def test_every_type_of_numbers_and_every_layout_gives_the_same(self):
-        expected = points(surface(ellipsoid(dtype=np.int32), Isovalue=20.5))
+        expected = points(surface(ellipsoid(dtype=np.int32), Level=20.5))
         for dtype in (np.int16, np.int64, np.float32, np.float64):
             image = ellipsoid(dtype=np.int32)
             set_scalars(image, vtk_to_numpy(image.GetPointData().GetScalars()).astype(dtype))
-            np.testing.assert_array_equal(points(surface(image, Isovalue=20.5)), expected, str(dtype))
+            np.testing.assert_array_equal(points(surface(image, Level=20.5)), expected, str(dtype))
         image = ellipsoid(dtype=np.int32)
         values = vtk_to_numpy(image.GetPointData().GetScalars())
         vectors = numpy_to_vtk(np.column_stack([values * 0, values]), deep=1)
         vectors.SetName("vectors")
         image.GetPointData().SetScalars(vectors)
-        np.testing.assert_array_equal(points(surface(image, Isovalue=20.5, ArrayComponent=1)), expected)
+        np.testing.assert_array_equal(points(surface(image, Level=20.5, ArrayComponent=1)), expected)
         separate = vtk.vtkSOADataArrayTemplate["float64"]()  # each component has a memory of its own
         separate.DeepCopy(vectors)
         separate.SetName("vectors")
         image.GetPointData().SetScalars(separate)
-        np.testing.assert_array_equal(points(surface(image, Isovalue=20.5, ArrayComponent=1)), expected)
+        np.testing.assert_array_equal(points(surface(image, Level=20.5, ArrayComponent=1)), expected)
 
     def test_an_extent_may_begin_anywhere(self):
         image = ellipsoid()
@@ -226,7 +226,7 @@ class Surface(unittest.TestCase):
         source.SetWholeExtent(-10, 10, -10, 10, -10, 10)
         surface_filter = vtkEquiaffineSurface()
         surface_filter.SetInputConnection(source.GetOutputPort())
-        surface_filter.SetIsovalue(157)
+        surface_filter.SetLevel(157)
         surface_filter.Update()
         whole = vtk.vtkPolyData()
         whole.DeepCopy(surface_filter.GetOutput())
@@ -250,7 +250,7 @@ class Surface(unittest.TestCase):
             self.assertEqual(len(owned), whole.GetNumberOfPolys())
             self.assertEqual(set(owned), triangles_of(whole))
 
-    def test_pieces_of_one_process_are_those_of_the_whole_where_samples_are_the_isovalue(self):
+    def test_pieces_of_one_process_are_those_of_the_whole_where_samples_are_the_level(self):
         k, j, i = np.mgrid[:49, :49, :49]
         image = vtk.vtkImageData()
         image.SetDimensions(49, 49, 49)
@@ -314,7 +314,7 @@ class Surface(unittest.TestCase):
         cases = [(without_scalars, {}, "no such point array"), (one_slab, {}, "1 point along an axis"),
                  (nan, {}, "no point of the image has a finite number"), (strings, {}, "no such point array"),
                  (short, {}, "no number for each point"), (None, {"Attributes": "foo"}, "unknown attribute 'foo'"),
-                 (None, {"Degree": 6}, "not 5, 7 or 9"), (None, {"Isovalue": float("nan")}, "not finite"),
+                 (None, {"SplineDegree": 6}, "not 5, 7 or 9"), (None, {"Level": float("nan")}, "not finite"),
                  (None, {"ArrayComponent": 2}, "has 1 component, of which number 2 is none")]
         for change, properties, words in cases:
             image = ellipsoid()

@@ -145,9 +145,9 @@ def test_images():
     for name, parts in ways.items():
         extent = pieces(parts)[RANK]
         for function, prepare in ((waves, options()), (waves, options(Smoothing=1.5, Attributes="basic")),
-                                  (waves, options(Scheme=1, Degree=5, FlipNormals=True)),
-                                  (with_holes, options(Degree=9, ProjectVertices=False)),
-                                  (ball, options(Isovalue=20, Attributes="signature,normal"))):
+                                  (waves, options(SplineScheme=1, SplineDegree=5, Orientation=1)),
+                                  (with_holes, options(SplineDegree=9, Vertices=1)),
+                                  (ball, options(Level=20, Attributes="signature,normal"))):
             expect_same(f"{function.__name__}, cut along {name}", image_of(function, extent),
                         image_of(function, WHOLE), prepare)
 
@@ -166,7 +166,7 @@ def test_source():
     source.SetWholeExtent(*extent)
     whole = vtk.vtkRTAnalyticSource()
     whole.SetWholeExtent(*extent)
-    expect_same("a source that gives any piece", source, whole, options(Isovalue=157))
+    expect_same("a source that gives any piece", source, whole, options(Level=157))
 
 
 def test_blocks():
@@ -177,11 +177,11 @@ def test_blocks():
     expect_same("blocks", blocks, image_of(waves, WHOLE))
 
 
-def test_samples_at_the_isovalue():
-    """Integers have the isovalue at many points."""
-    for isovalue in (0, 3, 5):
-        expect_same(f"steps at {isovalue}", image_of(steps, pieces((1, 1, RANKS))[RANK]), image_of(steps, WHOLE),
-                    options(Isovalue=isovalue, Attributes="normal"))
+def test_samples_at_the_level():
+    """Integers have the level at many points."""
+    for level in (0, 3, 5):
+        expect_same(f"steps at {level}", image_of(steps, pieces((1, 1, RANKS))[RANK]), image_of(steps, WHOLE),
+                    options(Level=level, Attributes="normal"))
 
 
 def test_parts_that_are_not_those_of_the_source():
@@ -189,7 +189,7 @@ def test_parts_that_are_not_those_of_the_source():
     source = vtk.vtkTrivialProducer()
     source.SetOutput(image_of(waves, pieces((RANKS, 1, 1) if RANKS < 4 else (2, 2, 1))[RANKS - 1 - RANK]))
     source.SetWholeExtent(WHOLE)
-    expect_same("parts of a simulation", source, image_of(waves, WHOLE), options(Degree=5))
+    expect_same("parts of a simulation", source, image_of(waves, WHOLE), options(SplineDegree=5))
 
 
 def noisy(i, j, k):
@@ -203,7 +203,7 @@ def test_automatic_smoothing():
     source = vtk.vtkTrivialProducer()  # which gives as many ghost levels as are wanted
     source.SetOutput(image_of(noisy, WHOLE))
     source.SetWholeExtent(WHOLE)
-    prepare = options(AutomaticSmoothing=True, Degree=5, Attributes="affine_mean_curvature")
+    prepare = options(AutomaticSmoothing=True, SplineDegree=5, Attributes="affine_mean_curvature")
     expect_same("automatic smoothing", source, image_of(noisy, WHOLE), prepare)
     chosen = smoothing_of(surface(source, prepare, CONTROLLER))
     assert chosen >= 1.5, chosen
@@ -233,7 +233,7 @@ def test_update_without_a_piece():
     source.SetWholeExtent(WHOLE)
     surface_filter = vtkEquiaffineSurface()
     surface_filter.SetInputConnection(source.GetOutputPort())
-    surface_filter.SetIsovalue(20)
+    surface_filter.SetLevel(20)
     surface_filter.Update()
     assert surface_filter.GetOutput().GetFieldData().GetArray("vertices").GetValue(0) == 352
 
@@ -273,7 +273,7 @@ def test_processes_that_differ():
     if RANKS == 1:
         return
     extent = pieces((1, 1, RANKS))[RANK]
-    expect_errors(image_of(waves, extent), Degree=5 if RANK else 7)
+    expect_errors(image_of(waves, extent), SplineDegree=5 if RANK else 7)
     expect_errors(image_of(waves, extent), AutomaticSmoothing=RANK > 0)
     expect_errors(image_of(waves, extent), Attributes="all" if RANK else "normal")
     expect_errors(image_of(waves if RANK else ball, extent))
@@ -290,7 +290,7 @@ def test_empty_processes():
     """All but two processes have nothing, and one of these has no surface."""
     parts = pieces((1, 1, min(RANKS, 2)))
     image = image_of(ball, parts[RANK]) if RANK < len(parts) else vtk.vtkImageData()
-    expect_same("empty processes", image, image_of(ball, WHOLE), options(Isovalue=20))
+    expect_same("empty processes", image, image_of(ball, WHOLE), options(Level=20))
 
 
 def test_failure_of_one():
@@ -319,7 +319,7 @@ def main():
     test_source()
     test_empty_processes()
     test_blocks()
-    test_samples_at_the_isovalue()
+    test_samples_at_the_level()
     test_parts_that_are_not_those_of_the_source()
     test_automatic_smoothing()
     test_update_without_a_piece()

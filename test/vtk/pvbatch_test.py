@@ -27,7 +27,7 @@ def digest(mesh):
     return f"{len(first)} vertices, {len(triangles)} triangles, {result.hexdigest()}"
 
 
-surface = EquiaffineSurface(Input=Wavelet(WholeExtent=[-20, 20, -20, 20, -20, 20]), Isovalue=157,
+surface = EquiaffineSurface(Input=Wavelet(WholeExtent=[-20, 20, -20, 20, -20, 20]), Level=157,
                             EstimateErrors=0)  # which pieces do not have
 surface.UpdatePipeline()
 mesh = servermanager.Fetch(surface)

@@ -117,13 +117,13 @@ std::int64_t number_of(const Cell_block& cells) {
 }
 
 /// The lattice of an image with that frame.
-Lattice_3<Kernel> lattice_of(const std::vector<double>& frame, const Extent& whole, const Spline_parameters& spline) {
+Lattice_3<Kernel> lattice_of(const std::vector<double>& frame, const Extent& whole, const Volume_options& options) {
   std::array<std::size_t, 3> size;
   for (std::size_t a = 0; a < 3; ++a) {
     size[a] = std::size_t(whole[2 * a + 1] - whole[2 * a]) + 1;
-    require(size[a] > std::size_t(spline.degree),
+    require(size[a] > std::size_t(options.spline_degree),
             "the image has " + std::to_string(size[a]) + (size[a] == 1 ? " point" : " points") +
-                " along an axis, and a spline needs more than its degree of " + std::to_string(spline.degree) +
+                " along an axis, and a spline needs more than its degree of " + std::to_string(options.spline_degree) +
                 "; choose a smaller degree, or give a volume with more points");
   }
   std::array<double, 3> origin = {frame[0], frame[1], frame[2]};
@@ -149,7 +149,7 @@ bool lacks_samples(const Image_pieces& pieces, const Piece_request& request) {
   return std::any_of(pieces.pieces.begin(), pieces.pieces.end(), [&](const Image_piece& piece) {
     const Cell_block wanted =
         widened(piece.cells, std::size_t(request.ghost_levels), equiaffine::cells_of(lattice.size()));
-    return !contains(cells_of(pieces, piece.image), needed_cells(wanted, lattice, request.spline));
+    return !contains(cells_of(pieces, piece.image), needed_cells(wanted, lattice, request.volume));
   });
 }
 
@@ -247,7 +247,7 @@ Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, con
   together(ranks, [&] {
     require(frames.least == frames.greatest, "the pieces of the image differ in origin, spacing, direction or type of "
                                              "numbers; give pieces of one image");
-    result.lattice = lattice_of(frames.least, whole, request.spline);
+    result.lattice = lattice_of(frames.least, whole, request.volume);
     result.first = {whole[0], whole[2], whole[4]};
     const std::int64_t cells = number_of(equiaffine::cells_of(result.lattice->size()));
     // One process that makes all pieces one after the other has the whole image.
@@ -271,7 +271,7 @@ Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, con
     require(sums[0] == 0, "the pieces of the image overlap or leave cells out; give each cell to one piece");
   });
   if (sums[1] > 0) {
-    const int levels = needed_ghost_levels(request.spline) + request.ghost_levels;
+    const int levels = needed_ghost_levels(request.volume) + request.ghost_levels;
     std::array<double, 1> thickness = {least_thickness(result)};
     ranks.least(thickness);
     std::vector<vtkSmartPointer<vtkImageData>> exchanged;
@@ -282,7 +282,7 @@ Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, con
       require(!lacks_samples(result, request),
               "a piece of the image needs " + std::to_string(levels) +
                   " ghost levels, and the pieces beside it have fewer; use fewer pieces, " +
-                  (request.chooses_smoothing ? "or set the smoothing" : "less smoothing or a smaller degree"));
+                  (!request.volume.smoothing ? "or set the smoothing" : "less smoothing or a smaller degree"));
     });
   }
   result.are_wanted = is_given_by_source || request.pieces == ranks.count() || request.piece == 0;
@@ -318,19 +318,20 @@ Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& pie
   throw std::invalid_argument("the array of the image is of a type without numbers; choose another one");
 }
 
-Cell_block needed_cells(const Cell_block& block, const Lattice_3<Kernel>& lattice, const Spline_parameters& spline) {
+Cell_block needed_cells(const Cell_block& block, const Lattice_3<Kernel>& lattice, const Volume_options& options) {
   const Cell_block all = equiaffine::cells_of(lattice.size());
-  if (spline.scheme == Spline_scheme::INTERPOLATION) return all;
-  return cells_to_know(widened(block, cells_around_block, all), lattice.size(), spline);
+  if (options.spline_scheme == Spline_scheme::INTERPOLATION) return all;
+  return cells_to_know(widened(block, cells_around_block, all), lattice.size(), options);
 }
 
-int needed_ghost_levels(const Spline_parameters& spline) {
-  if (spline.scheme == Spline_scheme::INTERPOLATION) return 0;
-  const std::size_t n = 64 + 16 * std::size_t(spline.smoothing + 1); // room for both borders and what is between
+int needed_ghost_levels(const Volume_options& options) {
+  if (options.spline_scheme == Spline_scheme::INTERPOLATION) return 0;
+  const double smoothing = options.smoothing.value_or(greatest_scale_to_choose);
+  const std::size_t n = 64 + 16 * std::size_t(smoothing + 1); // room for both borders and what is between
   const Lattice_3<Kernel> lattice({n, n, n}, CGAL::Bbox_3(0, 0, 0, 1, 1, 1));
   std::size_t levels = 0;
   for (const std::size_t c : {std::size_t(0), n / 2}) { // the cell at the border looks farthest inwards
-    const Cell_block needed = needed_cells({{c, c, c}, {c + 1, c + 1, c + 1}}, lattice, spline);
+    const Cell_block needed = needed_cells({{c, c, c}, {c + 1, c + 1, c + 1}}, lattice, options);
     levels = std::max({levels, c - needed.first[0], needed.end[0] - c - 1});
   }
   return int(levels);

@@ -5,8 +5,8 @@
 #include "Ranks.h"
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Lattice_3.h>
-#include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/Volume_options.h>
 
 #include <CGAL/Simple_cartesian.h>
 
@@ -48,8 +48,7 @@ struct Image_pieces {
 struct Piece_request {
   int piece = 0, pieces = 1; ///< which part of a source that gives any part of an image
   int ghost_levels = 0;      ///< wanted beside the cells of a piece
-  Spline_parameters spline;  ///< with the greatest scale of smoothing that may be chosen, if it is chosen
-  bool chooses_smoothing = false;
+  Volume_options volume;     ///< without a smoothing if that is chosen
 };
 
 /// Finds the array of an image that is the function, and null if there is none.
@@ -73,10 +72,10 @@ Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& pie
                               const Cell_block& cells);
 
 /// So many ghost levels a piece of an image needs, wherever it is.
-int needed_ghost_levels(const Spline_parameters& spline);
+int needed_ghost_levels(const Volume_options& options);
 
 /// The cells at whose nodes samples must be known for the surface in a block.
-Cell_block needed_cells(const Cell_block& block, const Lattice_3<Kernel>& lattice, const Spline_parameters& spline);
+Cell_block needed_cells(const Cell_block& block, const Lattice_3<Kernel>& lattice, const Volume_options& options);
 
 } // namespace equiaffine
 

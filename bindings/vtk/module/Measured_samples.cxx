@@ -31,18 +31,17 @@ void in_all_processes(const Views& views, const Image_pieces& pieces, const Rank
 
 } // namespace
 
-Sample_noise measured_noise(const Views& views, const Image_pieces& pieces, double isovalue, const Ranks& ranks) {
+Sample_noise measured_noise(const Views& views, const Image_pieces& pieces, double level, const Ranks& ranks) {
   Sample_noise noise{};
-  in_all_processes(views, pieces, ranks, [&](const auto& volume) { noise = estimate_noise<Tag>(volume, isovalue); });
+  in_all_processes(views, pieces, ranks, [&](const auto& volume) { noise = estimate_noise<Tag>(volume, level); });
   return noise;
 }
 
 double chosen_smoothing(const Views& views, const Image_pieces& pieces, const Sample_noise& noise,
-                        const Spline_parameters& spline, double isovalue, const Ranks& ranks) {
+                        const Volume_options& options, const Ranks& ranks) {
   double smoothing = 0;
-  in_all_processes(views, pieces, ranks, [&](const auto& volume) {
-    smoothing = choose_smoothing<Tag>(volume, noise, spline.degree, spline.scheme, isovalue);
-  });
+  in_all_processes(views, pieces, ranks,
+                   [&](const auto& volume) { smoothing = choose_smoothing<Tag>(volume, noise, options); });
   return smoothing;
 }
 

@@ -5,8 +5,8 @@
 #include "Image_pieces.h"
 #include "Ranks.h"
 #include <equiaffine/volume/Sample_noise.h>
-#include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/Volume_options.h>
 
 #include <cstddef>
 #include <optional>
@@ -17,11 +17,11 @@ namespace equiaffine {
 using Views = std::vector<Volume_view_3<Kernel>>; ///< of the samples of each piece of a process
 
 /// The noise of the samples. All processes tell each other what they measure, as in the functions below.
-Sample_noise measured_noise(const Views& views, const Image_pieces& pieces, double isovalue, const Ranks& ranks);
+Sample_noise measured_noise(const Views& views, const Image_pieces& pieces, double level, const Ranks& ranks);
 
 /// The scale of smoothing with the least estimated error.
 double chosen_smoothing(const Views& views, const Image_pieces& pieces, const Sample_noise& noise,
-                        const Spline_parameters& spline, double isovalue, const Ranks& ranks);
+                        const Volume_options& options, const Ranks& ranks);
 
 /// The number of distinct values of the samples, if there are few.
 std::optional<std::size_t> counted_values(const Views& views, const Image_pieces& pieces, const Ranks& ranks);

@@ -6,6 +6,7 @@
 #include "is_aborted.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/base/Progress_observer.h>
+#include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/fit/fitted_structures.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -76,16 +77,14 @@ std::vector<Point_with_normal> points_with_normals(vtkPolyData& mesh) {
   return result;
 }
 
-template <class Parameters>
-Structures structures_of(vtkPolyData& mesh, const Parameters& parameters, std::optional<double> feature_angle) {
+Structures structures_of(vtkPolyData& mesh, const Fit_options& options, Orientation_of_level_set orientation) {
   using Tag = CGAL::Parallel_if_available_tag;
   const std::vector<Triangle> triangles = triangles_of(mesh);
-  if (!triangles.empty())
-    return fitted_structures<Tag>(points_of(mesh), triangles, parameters.feature_angle(feature_angle));
+  if (!triangles.empty()) return fitted_structures<Tag>(points_of(mesh), triangles, options, orientation);
   const auto with_normals = points_with_normals(mesh);
-  if (with_normals.empty()) return fitted_structures<Tag>(points_of(mesh), parameters);
-  return fitted_structures<Tag>(with_normals,
-                                parameters.point_map(CGAL::First_of_pair_property_map<Point_with_normal>())
+  if (with_normals.empty()) return fitted_structures<Tag>(points_of(mesh), options, orientation);
+  return fitted_structures<Tag>(with_normals, options, orientation,
+                                parameters::point_map(CGAL::First_of_pair_property_map<Point_with_normal>())
                                     .normal_map(CGAL::Second_of_pair_property_map<Point_with_normal>()));
 }
 
@@ -124,7 +123,7 @@ void vtkEquiaffineCurvatures::PrintSelf(ostream& os, vtkIndent indent) {
      << indent << "Scale: " << this->Scale << '\n'
      << indent << "Degree: " << this->Degree << '\n'
      << indent << "FeatureAngle: " << this->FeatureAngle << '\n'
-     << indent << "FlipNormals: " << this->FlipNormals << '\n';
+     << indent << "Orientation: " << this->Orientation << '\n';
 }
 
 int vtkEquiaffineCurvatures::RequestData(vtkInformation*, vtkInformationVector** inputs,
@@ -140,12 +139,13 @@ int vtkEquiaffineCurvatures::RequestData(vtkInformation*, vtkInformationVector**
       if (stage.total > 0) this->UpdateProgress(double(stage.done) / double(stage.total));
       if (is_aborted(*this)) throw Aborted();
     });
-    const auto parameters = parameters::scale(this->Scale < 0 ? std::nullopt : std::optional(this->Scale))
-                                .degree(this->Degree == 0 ? std::nullopt : std::optional(this->Degree))
-                                .orientation(this->FlipNormals ? Orientation_of_level_set::AGAINST_GRADIENT
-                                                               : Orientation_of_level_set::ALONG_GRADIENT);
-    const Structures structures =
-        structures_of(*input, parameters, this->FeatureAngle < 180 ? std::optional(this->FeatureAngle) : std::nullopt);
+    const Fit_options options = {.scale = this->Scale < 0 ? std::nullopt : std::optional(this->Scale),
+                                 .degree = this->Degree == 0 ? std::nullopt : std::optional(this->Degree),
+                                 .feature_angle = this->FeatureAngle};
+    const Structures structures = structures_of(*input, options,
+                                                this->Orientation == AGAINST
+                                                    ? Orientation_of_level_set::AGAINST_GRADIENT
+                                                    : Orientation_of_level_set::ALONG_GRADIENT);
     add_columns(structures, selection, this->EstimateErrors, *output->GetPointData());
   } catch (const Aborted&) {
     output->Initialize();

@@ -65,11 +65,13 @@ public:
   vtkGetMacro(FeatureAngle, double);
   ///@}
 
+  enum { GRADIENT = 0, AGAINST = 1 };
   ///@{
-  /** Whether normals point to the other side of the faces; off by default. */
-  vtkSetMacro(FlipNormals, bool);
-  vtkGetMacro(FlipNormals, bool);
-  vtkBooleanMacro(FlipNormals, bool);
+  /** Whether normals are those of the faces, GRADIENT, the default, or AGAINST, the opposite ones. */
+  vtkSetClampMacro(Orientation, int, 0, 1);
+  vtkGetMacro(Orientation, int);
+  void SetOrientationToGradient() { this->SetOrientation(GRADIENT); }
+  void SetOrientationToAgainst() { this->SetOrientation(AGAINST); }
   ///@}
 
 protected:
@@ -83,7 +85,7 @@ protected:
   double Scale = 0;
   int Degree = 0;
   double FeatureAngle = 60;
-  bool FlipNormals = false;
+  int Orientation = GRADIENT;
 
 private:
   vtkEquiaffineCurvatures(const vtkEquiaffineCurvatures&) = delete;

@@ -9,6 +9,7 @@
 #include "is_aborted.h"
 #include <equiaffine/attributes/Curvature_error_3.h>
 #include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/engine/vectorized.h>
 #include <equiaffine/function/Level_set_traits_3.h>
@@ -37,11 +38,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,8 +58,7 @@ using Traits = Sampled_function_traits_3<equiaffine::Kernel>;
 /// The properties of the filter that say what is computed.
 struct Task {
   Piece_request request;
-  Spline_parameters spline;
-  double isovalue;
+  Volume_options volume; ///< with a smoothing, as soon as it is chosen
   Orientation_of_level_set orientation;
   Vertex_position position;
   Attribute_selection selection;
@@ -73,7 +75,7 @@ Cell_block used_cells(const Image_piece& piece, const Image_pieces& pieces, cons
   if (pieces.are_whole) return cells_of(pieces, piece.image);
   const Cell_block all = cells_of(pieces.lattice->size()),
                    block = widened(piece.cells, std::size_t(task.request.ghost_levels), all);
-  return clamped(needed_cells(block, *pieces.lattice, task.spline), cells_of(pieces, piece.image));
+  return clamped(needed_cells(block, *pieces.lattice, task.volume), cells_of(pieces, piece.image));
 }
 
 /// The functions of the pieces of this process. All processes add up what they know of the whole image.
@@ -89,14 +91,14 @@ std::vector<Traits> functions_of(const Views& views, const Image_pieces& pieces,
     if (views.size() > 1) { // the pieces of this process are surveyed first
       Volume_survey own;
       for (std::size_t n = 0; n < views.size(); ++n)
-        Traits(views[n], task.spline, Volume_part{pieces.pieces[n].surveyed, [&](Volume_survey& s) { own.add(s); }},
+        Traits(views[n], task.volume, Volume_part{pieces.pieces[n].surveyed, [&](Volume_survey& s) { own.add(s); }},
                Tag());
       reduce(own);
     } else if (views.empty()) {
       reduce({});
     }
     for (std::size_t n = 0; n < views.size(); ++n)
-      functions.emplace_back(views[n], task.spline,
+      functions.emplace_back(views[n], task.volume,
                              Volume_part{pieces.pieces[n].surveyed,
                                          [&](Volume_survey& s) {
                                            if (!survey) reduce(s);
@@ -107,15 +109,28 @@ std::vector<Traits> functions_of(const Views& views, const Image_pieces& pieces,
   return functions;
 }
 
+/// Throws for a property that makes no sense, under the name that it has here.
+void check(const Volume_options& options) {
+  try {
+    options.check();
+  } catch (const Input_error& error) {
+    std::string name;
+    for (const char c : "_" + error.field()) {
+      if (!name.empty() && name.back() == '_') name.back() = char(std::toupper(c));
+      else name.push_back(c);
+    }
+    throw std::invalid_argument(name + ": " + error.sentence());
+  }
+}
+
 /// Throws unless the properties of the filter are the same in all processes.
 void check_that_properties_agree(const Task& task, int component, const Ranks& ranks) {
   std::string names;
   for (const Attribute& attribute : task.selection.columns) names.append(attribute.name).append(",");
-  std::array<double, 12> least = {double(task.request.spline.degree),
-                                  double(task.request.spline.scheme),
-                                  task.request.spline.smoothing,
-                                  double(task.request.chooses_smoothing),
-                                  task.isovalue,
+  std::array<double, 11> least = {double(task.request.volume.spline_degree),
+                                  double(task.request.volume.spline_scheme),
+                                  task.request.volume.smoothing.value_or(-1),
+                                  *task.request.volume.level,
                                   double(task.orientation),
                                   double(task.position),
                                   double(component),
@@ -130,7 +145,7 @@ void check_that_properties_agree(const Task& task, int component, const Ranks& r
                                 : "the properties of the filter differ between processes; set the same everywhere");
 }
 
-/// Throws if there is no number at all, so that the surface is empty whatever the isovalue is.
+/// Throws if there is no number at all, so that the surface is empty whatever the level is.
 void check_that_there_are_numbers(const Views& views, const Ranks& ranks) {
   std::array<std::int64_t, 2> rows = {0, std::int64_t(views.size())}; // those with a number, and pieces
   for (const auto& view : views) {
@@ -149,20 +164,20 @@ void check_that_there_are_numbers(const Views& views, const Ranks& ranks) {
 /// The cells around a block where the function is known, some of them at least, if there are samples at the nodes of the
 /// cells `have`.
 Cell_block known_cells(const Cell_block& block, const Cell_block& have, const Image_pieces& pieces,
-                       const Spline_parameters& spline) {
+                       const Volume_options& options) {
   const Cell_block all = cells_of(pieces.lattice->size());
   if (have == all) return all;
   Cell_block known = widened(block, cells_around_block, all);
   for (std::size_t margin = 2 * cells_around_block;; margin *= 2) {
     const Cell_block more = widened(block, margin, all);
-    const Cell_block needed = cells_to_know(more, pieces.lattice->size(), spline);
+    const Cell_block needed = cells_to_know(more, pieces.lattice->size(), options);
     if (more == known || clamped(needed, have) != needed) return known;
     known = more;
   }
 }
 
-/// So many layers of a block are made at once that a quarter of its surface is in memory twice. Fewer would take longer, as
-/// some layers around them are made again.
+/// Layers per slab: a quarter of the block, so that at most a quarter of its surface is in memory twice. Thinner slabs
+/// would make more layers again beside their seams.
 std::size_t layers_of_slab(const Cell_block& block) {
   constexpr std::size_t least = 32;
   return std::max(least, (block.end[2] - block.first[2] + 3) / 4);
@@ -188,16 +203,17 @@ void mesh_pieces(const std::vector<Traits>& functions, const Views& views, const
                  const std::optional<Sample_noise>& noise, Surface_arrays& arrays, const Advance& advance) {
   const Lattice_3<equiaffine::Kernel>& lattice = *pieces.lattice;
   for (std::size_t n = 0; n < functions.size(); ++n) {
-    const Level_set_traits_3<Traits> function(functions[n], task.isovalue, task.orientation);
-    const Level_set_traits_3 vectorized_function(vectorized::Spline(functions[n]), task.isovalue, task.orientation);
+    const Level_set_traits_3<Traits> function(functions[n], *task.volume.level, task.orientation);
+    const Level_set_traits_3 vectorized_function(vectorized::Spline(functions[n]), *task.volume.level,
+                                                 task.orientation);
     const Cell_block all = cells_of(lattice.size()), own = pieces.pieces[n].cells,
                      block = widened(own, std::size_t(task.request.ghost_levels), all);
-    const Cell_block known = known_cells(block, views[n].cells(), pieces, task.spline);
+    const Cell_block known = known_cells(block, views[n].cells(), pieces, task.volume);
     Errors errors;
-    if (noise) errors.emplace(functions[n], views[n], task.spline.smoothing, noise->deviation, Tag());
+    if (noise) errors.emplace(functions[n], views[n], *task.volume.smoothing, noise->deviation, Tag());
     arrays.begin_piece();
-    marching_cubes_in_slabs<Tag>(
-        function,
+    marching_cubes_of_block<Tag>(
+        function, block,
         [&](const Isosurface_slab_3<equiaffine::Kernel>& slab) {
           arrays.add(
               slab, [&](std::span<const equiaffine::Kernel::Point_3> points, std::span<const Point_status> status) {
@@ -208,10 +224,7 @@ void mesh_pieces(const std::vector<Traits>& functions, const Views& views, const
           const double of_piece = double(slab.end_plane - block.first[2]) / double(block.end[2] - block.first[2]);
           advance((double(n) + of_piece) / double(functions.size()));
         },
-        parameters::cell_block(block)
-            .planes_per_slab(layers_of_slab(block))
-            .known_cells(known)
-            .vertex_position(task.position));
+        {.sampling = {.vertices = task.position}, .planes_per_slab = layers_of_slab(block)}, known);
   }
 }
 
@@ -233,16 +246,16 @@ vtkEquiaffineSurface::~vtkEquiaffineSurface() {
 
 void vtkEquiaffineSurface::PrintSelf(ostream& os, vtkIndent indent) {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Isovalue: " << this->Isovalue << '\n'
-     << indent << "Degree: " << this->Degree << '\n'
-     << indent << "Scheme: " << this->Scheme << '\n'
+  os << indent << "Level: " << this->Level << '\n'
+     << indent << "SplineDegree: " << this->SplineDegree << '\n'
+     << indent << "SplineScheme: " << this->SplineScheme << '\n'
      << indent << "Smoothing: " << this->Smoothing << '\n'
      << indent << "AutomaticSmoothing: " << this->AutomaticSmoothing << '\n'
      << indent << "EstimateErrors: " << this->EstimateErrors << '\n'
      << indent << "HideUnknown: " << this->HideUnknown << '\n'
      << indent << "Attributes: " << (this->Attributes ? this->Attributes : "(none)") << '\n'
-     << indent << "FlipNormals: " << this->FlipNormals << '\n'
-     << indent << "ProjectVertices: " << this->ProjectVertices << '\n'
+     << indent << "Orientation: " << this->Orientation << '\n'
+     << indent << "Vertices: " << this->Vertices << '\n'
      << indent << "ArrayComponent: " << this->ArrayComponent << '\n'
      << indent << "Controller: " << this->Controller << '\n';
 }
@@ -256,19 +269,20 @@ int vtkEquiaffineSurface::FillInputPortInformation(int, vtkInformation* info) {
 
 int vtkEquiaffineSurface::GetNumberOfGhostLevels() {
   try {
-    return needed_ghost_levels(this->GetSpline());
+    return needed_ghost_levels(this->GetOptions());
   } catch (const std::exception& error) {
     vtkErrorMacro(<< error.what());
     return 0;
   }
 }
 
-equiaffine::Spline_parameters vtkEquiaffineSurface::GetSpline() const {
+equiaffine::Volume_options vtkEquiaffineSurface::GetOptions() const {
   constexpr std::array schemes = {Spline_scheme::QUASI_INTERPOLATION, Spline_scheme::CONVOLUTION,
                                   Spline_scheme::INTERPOLATION};
-  return {.degree = this->Degree,
-          .scheme = schemes[std::size_t(this->Scheme)],
-          .smoothing = this->AutomaticSmoothing ? greatest_scale_to_choose : this->Smoothing};
+  return {.smoothing = this->AutomaticSmoothing ? std::nullopt : std::optional(this->Smoothing),
+          .spline_scheme = schemes[std::size_t(this->SplineScheme)],
+          .spline_degree = this->SplineDegree,
+          .level = this->Level};
 }
 
 // A piece of an image is asked for with its ghost levels where every process has its piece, else the whole image.
@@ -287,8 +301,12 @@ int vtkEquiaffineSurface::RequestUpdateExtent(vtkInformation*, vtkInformationVec
   if (ranks.count() == 1 && pieces == 1) {
     input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   } else if (pieces == 1 || pieces == ranks.count()) {
-    const bool is_degree = this->Degree == 5 || this->Degree == 7 || this->Degree == 9; // else RequestData() says so
-    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), ghosts + (is_degree ? this->GetNumberOfGhostLevels() : 0));
+    int levels = 0;
+    try {
+      levels = needed_ghost_levels(this->GetOptions());
+    } catch (const Input_error&) { // RequestData() says what is wrong
+    }
+    input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), ghosts + levels);
   } else {
     input->Set(Pipeline::UPDATE_PIECE_NUMBER(), 0);
     input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), 1);
@@ -310,13 +328,11 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
     Task task = {{.piece = is_of_process ? ranks.number() : info->Get(Pipeline::UPDATE_PIECE_NUMBER()),
                   .pieces = is_of_process ? ranks.count() : pieces_wanted,
                   .ghost_levels = info->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()),
-                  .spline = this->GetSpline(),
-                  .chooses_smoothing = this->AutomaticSmoothing},
-                 this->GetSpline(),
-                 this->Isovalue,
-                 this->FlipNormals ? Orientation_of_level_set::AGAINST_GRADIENT
-                                   : Orientation_of_level_set::ALONG_GRADIENT,
-                 this->ProjectVertices ? Vertex_position::PROJECTED : Vertex_position::LINEAR,
+                  .volume = this->GetOptions()},
+                 this->GetOptions(),
+                 this->Orientation == AGAINST ? Orientation_of_level_set::AGAINST_GRADIENT
+                                              : Orientation_of_level_set::ALONG_GRADIENT,
+                 this->Vertices == PROJECTED ? Vertex_position::PROJECTED : Vertex_position::LINEAR,
                  {},
                  this->HideUnknown ? Doubtful::HIDDEN : Doubtful::COUNTED,
                  {}};
@@ -325,14 +341,12 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
     std::vector<vtkSmartPointer<vtkImageData>> images;
     std::array<int, 6> whole_extent = {0, -1, 0, -1, 0, -1};
     together(ranks, [&] {
-      require(std::isfinite(this->Isovalue), "the isovalue is not finite; choose a number");
+      check(task.volume);
       const bool has_attributes = this->Attributes && *this->Attributes != '\0';
       task.selection = select_attributes(has_attributes ? this->Attributes : "none");
       constexpr std::size_t errors_of_splines = 2; // the first ones of the table
       task.errors = selected_errors(task.selection, this->EstimateErrors ? errors_of_splines : 0);
-      require(this->Degree == 5 || this->Degree == 7 || this->Degree == 9,
-              "the degree of a spline is not 5, 7 or 9: choose one of these");
-      require(task.request.spline.scheme != Spline_scheme::INTERPOLATION || ranks.count() == 1,
+      require(task.volume.spline_scheme != Spline_scheme::INTERPOLATION || ranks.count() == 1,
               "spline interpolation needs the whole image in one process; choose quasi-interpolation");
       images = images_of(data, this->ArrayComponent, [this](vtkImageData* image) -> vtkDataArray* {
         const char* const name = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
@@ -364,14 +378,14 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
     std::optional<Sample_noise> noise;
     if (this->AutomaticSmoothing) {
       view_pieces([&](const Image_piece& piece) { return cells_of(pieces, piece.image); });
-      noise = measured_noise(views, pieces, task.isovalue, ranks);
-      task.spline.smoothing = chosen_smoothing(views, pieces, *noise, task.spline, task.isovalue, ranks);
+      noise = measured_noise(views, pieces, this->Level, ranks);
+      task.volume.smoothing = chosen_smoothing(views, pieces, *noise, task.volume, ranks);
     }
     if (!pieces.are_wanted) pieces.pieces.clear();
     view_pieces([&](const Image_piece& piece) { return used_cells(piece, pieces, task); });
     const bool has_errors = !task.errors.empty() && are_whole(views, ranks);
     if (!has_errors) task.doubtful = Doubtful::UNTESTED;
-    else if (!noise) noise = measured_noise(views, pieces, task.isovalue, ranks);
+    else if (!noise) noise = measured_noise(views, pieces, this->Level, ranks);
     const std::vector<Traits> functions = functions_of(views, pieces, task, ranks);
     std::vector<Cell_block> own;
     for (const Image_piece& piece : pieces.pieces) own.push_back(piece.cells);
@@ -385,13 +399,13 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
       array->InsertNextValue(number);
       output->GetFieldData()->AddArray(array);
     };
-    add_number("smoothing", task.spline.smoothing);
+    add_number("smoothing", *task.volume.smoothing);
     if (noise) add_number("noise", noise->deviation);
     const auto [vertices, verdict] = surface.add_statistics(ranks, *output->GetFieldData());
     if (vertices == 0) check_that_there_are_numbers(views, ranks);
     together(ranks, [&] { surface.move_to(*output); });
     output->GetPointData()->SetActiveScalars(verdict.first_shown.c_str());
-    const bool is_of_steps = vertices > 0 && !task.selection.columns.empty() && task.spline.smoothing == 0;
+    const bool is_of_steps = vertices > 0 && !task.selection.columns.empty() && task.volume.smoothing == 0;
     const auto values = is_of_steps ? counted_values(views, pieces, ranks) : std::nullopt;
     if (vertices == 0 || ranks.number() > 0) return 1;
     if (values)

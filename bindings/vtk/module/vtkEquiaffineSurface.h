@@ -10,7 +10,7 @@ class vtkMultiProcessController;
 
 #ifndef __VTK_WRAP__
 namespace equiaffine {
-struct Spline_parameters;
+struct Volume_options;
 }
 #endif
 
@@ -51,7 +51,7 @@ struct Spline_parameters;
  * EstimateErrors, bit for bit, as are the field data. The filter asks upstream for the ghost levels that it needs
  * (GetNumberOfGhostLevels()), and gets them from the pieces beside if the source has none. It must execute in all processes, with the same properties. One
  * process may make the pieces one after the other: it then asks for the whole image, and field data are of a piece. Pieces
- * may differ where the image has the isovalue at more than four points in a row and is less around them: such parts without
+ * may differ where the image has the level at more than four points in a row and is less around them: such parts without
  * area are dropped if they are known whole, and else have triangles of less than 1e-6 of the spacing.
  *
  * Hidden points count as others. The status_counts are there with the status.
@@ -69,14 +69,14 @@ public:
 
   ///@{
   /** The value of the level set; 0 by default. */
-  vtkSetMacro(Isovalue, double);
-  vtkGetMacro(Isovalue, double);
+  vtkSetMacro(Level, double);
+  vtkGetMacro(Level, double);
   ///@}
 
   ///@{
   /** The degree of the spline: 5, 7 or 9; 7 by default. */
-  vtkSetMacro(Degree, int);
-  vtkGetMacro(Degree, int);
+  vtkSetMacro(SplineDegree, int);
+  vtkGetMacro(SplineDegree, int);
   ///@}
 
   enum { QUASI_INTERPOLATION = 0, CONVOLUTION = 1, INTERPOLATION = 2 };
@@ -85,11 +85,11 @@ public:
    * How samples become a spline: QUASI_INTERPOLATION by default. CONVOLUTION smooths, and needs up to three ghost levels
    * less. INTERPOLATION needs the whole image in one process.
    */
-  vtkSetClampMacro(Scheme, int, 0, 2);
-  vtkGetMacro(Scheme, int);
-  void SetSchemeToQuasiInterpolation() { this->SetScheme(QUASI_INTERPOLATION); }
-  void SetSchemeToConvolution() { this->SetScheme(CONVOLUTION); }
-  void SetSchemeToInterpolation() { this->SetScheme(INTERPOLATION); }
+  vtkSetClampMacro(SplineScheme, int, 0, 2);
+  vtkGetMacro(SplineScheme, int);
+  void SetSplineSchemeToQuasiInterpolation() { this->SetSplineScheme(QUASI_INTERPOLATION); }
+  void SetSplineSchemeToConvolution() { this->SetSplineScheme(CONVOLUTION); }
+  void SetSplineSchemeToInterpolation() { this->SetSplineScheme(INTERPOLATION); }
   ///@}
 
   ///@{
@@ -138,18 +138,22 @@ public:
   vtkGetStringMacro(Attributes);
   ///@}
 
+  enum { GRADIENT = 0, AGAINST = 1 };
   ///@{
-  /** Whether normals point against the gradient of the image; off by default. */
-  vtkSetMacro(FlipNormals, bool);
-  vtkGetMacro(FlipNormals, bool);
-  vtkBooleanMacro(FlipNormals, bool);
+  /** Whether normals point along the GRADIENT of the image, the default, or AGAINST it. */
+  vtkSetClampMacro(Orientation, int, 0, 1);
+  vtkGetMacro(Orientation, int);
+  void SetOrientationToGradient() { this->SetOrientation(GRADIENT); }
+  void SetOrientationToAgainst() { this->SetOrientation(AGAINST); }
   ///@}
 
+  enum { PROJECTED = 0, LINEAR = 1 };
   ///@{
-  /** Whether vertices lie on the level set of the spline, and not of the linear interpolant on edges; on by default. */
-  vtkSetMacro(ProjectVertices, bool);
-  vtkGetMacro(ProjectVertices, bool);
-  vtkBooleanMacro(ProjectVertices, bool);
+  /** Where vertices lie: PROJECTED on the level set of the spline, the default, or on that of the LINEAR interpolant. */
+  vtkSetClampMacro(Vertices, int, 0, 1);
+  vtkGetMacro(Vertices, int);
+  void SetVerticesToProjected() { this->SetVertices(PROJECTED); }
+  void SetVerticesToLinear() { this->SetVertices(LINEAR); }
   ///@}
 
   ///@{
@@ -177,22 +181,22 @@ protected:
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  double Isovalue = 0;
-  int Degree = 7;
-  int Scheme = QUASI_INTERPOLATION;
+  double Level = 0;
+  int SplineDegree = 7;
+  int SplineScheme = QUASI_INTERPOLATION;
   double Smoothing = 0;
   bool AutomaticSmoothing = false;
   bool EstimateErrors = true;
   bool HideUnknown = true;
   char* Attributes = nullptr;
-  bool FlipNormals = false;
-  bool ProjectVertices = true;
+  int Orientation = GRADIENT;
+  int Vertices = PROJECTED;
   int ArrayComponent = 0;
   vtkMultiProcessController* Controller = nullptr;
 
 private:
 #ifndef __VTK_WRAP__
-  equiaffine::Spline_parameters GetSpline() const;
+  equiaffine::Volume_options GetOptions() const;
 #endif
   vtkEquiaffineSurface(const vtkEquiaffineSurface&) = delete;
   void operator=(const vtkEquiaffineSurface&) = delete;

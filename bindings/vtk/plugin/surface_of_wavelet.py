@@ -9,7 +9,7 @@ from paraview.simple import (ColorBy, EquiaffineSurface, GetActiveViewOrCreate, 
                              ResetCamera, SaveScreenshot, SaveState, Show, Wavelet)
 
 wavelet = Wavelet(WholeExtent=[-30, 30, -30, 30, -30, 30])
-surface = EquiaffineSurface(Input=wavelet, Isovalue=157, Attributes="all")
+surface = EquiaffineSurface(Input=wavelet, Level=157, Attributes="all")
 
 view = GetActiveViewOrCreate("RenderView")
 display = Show(surface, view)

@@ -43,9 +43,9 @@ public:
   Curvature_error_3(const Sampled_function_traits_3<Kernel>& function, const Volume_view_3<Kernel>& volume,
                     const FT& smoothing, const FT& noise_deviation, ConcurrencyTag tag = {})
       : function_(function), other_(volume,
-                                    {.degree = function.spline().degree() == 9 ? 7 : 9,
-                                     .scheme = other_scheme(function.spline().scheme()),
-                                     .smoothing = double(FT(1.2) * smoothing)},
+                                    {.smoothing = double(FT(1.2) * smoothing),
+                                     .spline_scheme = other_scheme(function.spline().scheme()),
+                                     .spline_degree = function.spline().degree() == 9 ? 7 : 9},
                                     tag),
         disturbances_(
             std::make_shared<const Spline_disturbances_3<Kernel>>(function.spline(), smoothing, noise_deviation)) {}

@@ -7,13 +7,16 @@
 #include <equiaffine/attributes/internal/error_table.h>
 #include <equiaffine/attributes/internal/vertex_maps.h>
 #include <equiaffine/base/named_parameters.h>
+#include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
 
 #include <CGAL/boost/graph/graph_traits_Surface_mesh.h>
 #include <CGAL/property_map.h>
 #include <CGAL/tags.h>
 
+#include <concepts>
 #include <cstddef>
 #include <ranges>
 #include <string>
@@ -23,7 +26,7 @@ namespace equiaffine::internal {
 
 template <class Parameters, class... OtherTags, class... Tags, class... More>
 constexpr void check_maps_of_fit(Tag_list<Tags...>, Tag_list<More...>) {
-  check_fit_parameters<Parameters, Orientation_tag, OtherTags..., Tags..., More...>();
+  check_fit_parameters<Parameters, OtherTags..., Tags..., More...>();
 }
 
 template <class Parameters, class... OtherTags>
@@ -78,8 +81,8 @@ namespace equiaffine {
 
 /// Puts the local structure of the surface that the vertices of a mesh are samples of, as `fitted_structures` finds it,
 /// into the property maps that are named parameters, as annotate() with a function does, and estimates of their errors.
-/// `vertex_structure_map` has a Fitted_structure_3<double>; no map is read. The named parameters are those of
-/// fitted_structures(), the maps of annotate(), and maps of the estimated errors:
+/// `vertex_structure_map` has a Fitted_structure_3<double>; no map is read. With AGAINST_GRADIENT normals are on the other
+/// side. The named parameters are those of fitted_structures(), the maps of annotate(), and maps of the estimated errors:
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
@@ -99,62 +102,83 @@ namespace equiaffine {
 ///
 /// Named parameters come in one chain or several, equiaffine's and CGAL's.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>
-void annotate_by_fit(Graph& mesh, const Parameters&... given) {
+void annotate_by_fit(Graph& mesh, const Fit_options& options, Orientation_of_level_set orientation,
+                     const Parameters&... given) {
   using Joined = internal::Joined_parameters<Parameters...>;
-  internal::check_annotate_by_fit_parameters<Joined, internal::Vertex_point_tag, internal::Vertex_normal_tag,
-                                             internal::Feature_angle_tag>();
+  internal::check_annotate_by_fit_parameters<Joined, internal::Vertex_point_tag, internal::Vertex_normal_tag>();
   const Joined parameters = internal::joined_parameters(given...);
-  const auto structures = internal::fitted_structures_of_graph<ConcurrencyTag>(mesh, parameters);
+  const auto structures = internal::fitted_structures_of_graph<ConcurrencyTag>(mesh, options, orientation, parameters);
   if constexpr (internal::is_surface_mesh<Graph> && !internal::has_maps_of_fit<Joined>)
     internal::fill_maps_of_fit(mesh, structures);
   else internal::put_structures_of_fit(parameters, vertices_of(mesh), structures);
+}
+/// The same with normals on the side of the mesh.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>
+void annotate_by_fit(Graph& mesh, const Fit_options& options = {}, const Parameters&... given) {
+  annotate_by_fit<ConcurrencyTag>(mesh, options, Orientation_of_level_set::ALONG_GRADIENT, given...);
 }
 
 /// The same for one vertex, whose structure is returned, too; see fitted_structure(). A Surface_mesh gets no maps of
 /// its own here.
 template <class Vertex, Face_graph Graph, internal::Parameter_chain... Parameters>
-Fitted_structure_3<double> annotate_by_fit(const Vertex& v, const Graph& mesh, const Parameters&... given) {
+Fitted_structure_3<double> annotate_by_fit(const Vertex& v, const Graph& mesh, const Fit_options& options,
+                                           Orientation_of_level_set orientation, const Parameters&... given) {
   using Joined = internal::Joined_parameters<Parameters...>;
-  internal::check_annotate_by_fit_parameters<Joined, internal::Vertex_point_tag, internal::Vertex_normal_tag,
-                                             internal::Feature_angle_tag>();
+  internal::check_annotate_by_fit_parameters<Joined, internal::Vertex_point_tag, internal::Vertex_normal_tag>();
   const Joined parameters = internal::joined_parameters(given...);
-  const auto structure = internal::fitted_structure_of_vertex(v, mesh, parameters);
+  const auto structure = internal::fitted_structure_of_vertex(v, mesh, options, orientation, parameters);
   internal::put_structure_of_fit(parameters, v, structure);
   return structure;
+}
+/// The same with normals on the side of the mesh.
+template <class Vertex, Face_graph Graph, internal::Parameter_chain... Parameters>
+Fitted_structure_3<double> annotate_by_fit(const Vertex& v, const Graph& mesh, const Fit_options& options = {},
+                                           const Parameters&... given) {
+  return annotate_by_fit(v, mesh, options, Orientation_of_level_set::ALONG_GRADIENT, given...);
 }
 
 /// The same for points without faces, the elements of a range: see `fitted_structures`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::forward_range Points,
           internal::Parameter_chain... Parameters>
-void annotate_by_fit(Points&& points, const Parameters&... given) requires(!Face_graph<Points>) {
+void annotate_by_fit(Points&& points, const Fit_options& options, Orientation_of_level_set orientation,
+                     const Parameters&... given) requires(!Face_graph<Points>) {
   using Joined = internal::Joined_parameters<Parameters...>;
-  internal::check_annotate_by_fit_parameters<Joined, internal::Point_tag, internal::Normal_tag,
-                                             internal::Normal_orientation_tag>();
+  internal::check_annotate_by_fit_parameters<Joined, internal::Point_tag, internal::Normal_tag>();
   const Joined parameters = internal::joined_parameters(given...);
-  internal::put_structures_of_fit(parameters, points,
-                                  internal::fitted_structures_of_points<ConcurrencyTag>(points, parameters));
+  internal::put_structures_of_fit(
+      parameters, points,
+      internal::fitted_structures_of_points<ConcurrencyTag>(points, options, orientation, parameters));
+}
+/// The same with normals on the side of the given ones.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::forward_range Points,
+          internal::Parameter_chain... Parameters>
+void annotate_by_fit(Points&& points, const Fit_options& options = {},
+                     const Parameters&... given) requires(!Face_graph<Points>) {
+  annotate_by_fit<ConcurrencyTag>(points, options, Orientation_of_level_set::ALONG_GRADIENT, given...);
 }
 
 /// The same as with `vertex_structure_map`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Property_map Structure_map,
           internal::Parameter_chain... Parameters>
-void annotate_by_fit(const Graph& mesh, Structure_map map, const Parameters&... given) {
-  annotate_by_fit<ConcurrencyTag>(mesh, parameters::vertex_structure_map(map), given...);
+void annotate_by_fit(const Graph& mesh, Structure_map map, const Fit_options& options = {},
+                     const Parameters&... given) {
+  annotate_by_fit<ConcurrencyTag>(mesh, options, parameters::vertex_structure_map(map), given...);
 }
 /// The same for points without faces.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::forward_range Points,
           internal::Property_map Structure_map, internal::Parameter_chain... Parameters>
-void annotate_by_fit(Points&& points, Structure_map map, const Parameters&... given) requires(!Face_graph<Points>) {
-  annotate_by_fit<ConcurrencyTag>(points, parameters::vertex_structure_map(map), given...);
+void annotate_by_fit(Points&& points, Structure_map map, const Fit_options& options = {},
+                     const Parameters&... given) requires(!Face_graph<Points>) {
+  annotate_by_fit<ConcurrencyTag>(points, options, parameters::vertex_structure_map(map), given...);
 }
 
 /// \cond
 // A call that is mistaken, see base/named_parameters.h.
-template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class... Others>
-void annotate_by_fit(const Elements&, const Others&...) requires(
-    (Face_graph<Elements> || std::ranges::input_range<Elements>)&&!((internal::Parameter_chain<Others> ||
-                                                                     internal::Property_map<Others>)&&...)) {
-  internal::explain_parameters<Others...>();
+template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class First, class... Others>
+void annotate_by_fit(const Elements&, const First&, const Others&...) requires(
+    (Face_graph<Elements> || std::ranges::input_range<Elements>)&&!(std::convertible_to<First, Fit_options> ||
+                                                                    internal::Property_map<First>)) {
+  internal::explain_options<First>();
 }
 /// \endcond
 

@@ -5,6 +5,8 @@
 
 #include <equiaffine/base/internal/compiler.h>
 
+#include <array>
+#include <charconv>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -96,21 +98,57 @@ namespace equiaffine {
 /// `what()` is one line that says what is wrong, where, and what to do about it. What it quotes of the text or file is
 /// `printable`.
 /// `excerpt()` is empty or shows the place: the offending text and, below it, a caret.
+/// `field()` is empty or the member of an options struct that is wrong, such as "min_overlap" or "fit.scale": then
+/// `what()` is the field, a colon and the `sentence()`, so that a front end can put its own name of the option before it.
 class Input_error : public std::runtime_error {
 public:
   /// Makes an error of two texts.
   explicit Input_error(const std::string& what, std::string excerpt = {})
       : std::runtime_error(printable(what)), excerpt_(std::move(excerpt)) {}
 
+  /// Makes an error about a member of an options struct.
+  static Input_error about(const std::string& field, const std::string& sentence) {
+    Input_error error(field + ": " + sentence);
+    error.field_ = field;
+    return error;
+  }
+
   const std::string& excerpt() const { return excerpt_; } ///< the place in the text, or nothing
+  const std::string& field() const { return field_; }     ///< the member of an options struct, or nothing
+
+  /// What is wrong and what to do, without the field.
+  std::string sentence() const { return field_.empty() ? what() : std::string(what()).substr(field_.size() + 2); }
 
 private:
-  std::string excerpt_;
+  std::string excerpt_, field_;
 };
 
 } // namespace equiaffine
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility pop
 #endif
+
+namespace equiaffine::internal {
+
+/// Throws unless the number in a field of an options struct is valid: "field: '1.5' is not between 0 and 1; advice".
+inline void check_field(bool is_valid, const std::string& field, double number, const std::string& problem,
+                        const std::string& advice) {
+  if (is_valid) return;
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+  throw Input_error::about(field, "'" + std::string(digits.data(), end) + "' " + problem + "; " + advice);
+}
+
+/// Checks options that are a member of other options: the field of an error is "member.field".
+template <class Options>
+void check_member(const std::string& member, const Options& options) {
+  try {
+    options.check();
+  } catch (const Input_error& error) {
+    throw Input_error::about(member + "." + error.field(), error.sentence());
+  }
+}
+
+} // namespace equiaffine::internal
 
 #endif

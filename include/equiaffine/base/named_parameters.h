@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Named parameters in the style of CGAL: `parameters::number_of_nodes(128).vertex_position(Vertex_position::LINEAR)`.
+// Named parameters in the style of CGAL, for property maps and data: `parameters::vertex_point_map(map).comments(lines)`.
 // internal/named_parameter_list.h has the list. The types are our own, since CGAL's list of names is closed and differs
 // between its versions 5 and 6.
 #ifndef EQUIAFFINE_BASE_NAMED_PARAMETERS_H
@@ -11,7 +11,6 @@
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/version.h>
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <type_traits>
@@ -24,45 +23,19 @@ template <class Count, class Number>
 Count count_of(const Number& number) {
   static_assert(std::is_integral_v<Number>, "this named parameter counts something: give it a whole number");
   if constexpr (std::is_signed_v<Number>)
-    check_argument(number >= 0,
-                   "a named parameter that counts something, such as number_of_nodes, is negative: give it "
-                   "a positive number");
+    check_argument(number >= 0, "a named parameter that counts something, such as number_of_maps, is negative: give it "
+                                "a positive number");
   return static_cast<Count>(number);
 }
 
 /// Tags: the types by which a function asks for its parameters.
-struct Number_of_nodes_tag {};
-struct Vertex_position_tag {};
-struct Planes_per_slab_tag {};
-struct Cell_block_tag {};
-struct Known_cells_tag {};
-struct Skip_empty_space_tag {};
-struct Clip_tag {};
 struct Feature_curves_tag {};
-struct Parabolic_features_tag {};
-struct Facet_sizing_tag {};
 struct Vertex_point_tag {};
 struct Point_tag {};
 struct Normal_tag {};
-struct Normal_orientation_tag {};
-struct Noise_tag {};
-struct Scale_tag {};
-struct Degree_tag {};
-struct Orientation_tag {};
-struct Map_kind_tag {};
-struct Reflections_tag {};
-struct Number_of_maps_tag {};
-struct Least_overlap_tag {};
-struct Refined_functions_tag {};
-struct Tolerance_tag {};
-struct Complete_tag {};
-struct Target_edge_length_tag {};
-struct Number_of_iterations_tag {};
 struct Edge_is_constrained_tag {};
-struct Feature_angle_tag {};
 struct Vertex_outcome_tag {};
 struct Vertex_normal_tag {};
-struct Ball_radius_tag {};
 struct Geom_traits_tag {};
 struct Verbose_tag {};
 struct Comments_tag {};
@@ -177,9 +150,7 @@ EQUIAFFINE_TAG_FOR(normal_t, Normal_tag)
 EQUIAFFINE_TAG_FOR(geom_traits_t, Geom_traits_tag)
 EQUIAFFINE_TAG_FOR(verbose_t, Verbose_tag)
 EQUIAFFINE_TAG_FOR(edge_is_constrained_t, Edge_is_constrained_tag)
-EQUIAFFINE_TAG_FOR(number_of_iterations_t, Number_of_iterations_tag)
 #if CGAL_VERSION_NR >= 1060000000
-EQUIAFFINE_TAG_FOR(ball_radius_t, Ball_radius_tag)
 EQUIAFFINE_TAG_FOR(vertex_mean_curvature_map_t, Vertex_mean_curvature_tag)
 EQUIAFFINE_TAG_FOR(vertex_Gaussian_curvature_map_t, Vertex_Gaussian_curvature_tag)
 EQUIAFFINE_TAG_FOR(vertex_principal_curvatures_and_directions_map_t, Vertex_principal_curvatures_tag)
@@ -235,6 +206,13 @@ template <class... Arguments>
 constexpr void explain_parameters() {
   static_assert((Parameter_chain<Arguments> && ...),
                 "an argument is no named parameter: write parameters::NAME(value), of equiaffine or of CGAL");
+}
+
+/// Does not compile: a function whose options are a struct is given something else in their place.
+template <class Given>
+constexpr void explain_options() {
+  static_assert(!std::is_same_v<Given, Given>,
+                "the options of this function are a struct, and named parameters follow it: write {} for the defaults");
 }
 
 /// All named parameters of a call in one chain, those of CGAL under the tags of ours. Of two with the same name the last

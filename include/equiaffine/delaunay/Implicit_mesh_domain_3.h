@@ -3,9 +3,8 @@
 #ifndef EQUIAFFINE_DELAUNAY_IMPLICIT_MESH_DOMAIN_3_H
 #define EQUIAFFINE_DELAUNAY_IMPLICIT_MESH_DOMAIN_3_H
 
-#include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/convert_point.h>
-#include <equiaffine/delaunay/Delaunay_criteria.h>
+#include <equiaffine/delaunay/Delaunay_options.h>
 #include <equiaffine/delaunay/internal/certified_seeding.h>
 #include <equiaffine/function/Surface_point_3.h>
 #include <equiaffine/function/capabilities.h>
@@ -225,17 +224,11 @@ public:
   /// A point, the index of the surface patch, and 2; or 0 in the last place for none.
   using Intersection = std::tuple<Point_3, Index, int>;
 
-  /// `facet_size` is the bound of the radii of surface Delaunay balls that the mesher will be given, or 0 for the
-  /// default of `Delaunay_criteria`. Initial points are as dense as that, and on dual edges longer than twice that,
-  /// pairs of intersections are looked for. \throw std::invalid_argument if it is negative or not finite
-  Implicit_mesh_domain_3(Traits traits, const Clip_domain_3& domain, double facet_size = 0)
-      : facet_size_(facet_size > 0 ? facet_size : Delaunay_criteria::default_radius(domain)),
-        oracle_(std::make_shared<const Oracle>(std::move(traits), domain, 2 * facet_size_)) {
-    check_argument(facet_size >= 0 && std::isfinite(facet_size),
-                   "the facet size of a mesh domain is not a positive length: choose one, or 0 for the default");
-  }
-  /// Takes the box of the function as the clip domain, and the default facet size.
-  explicit Implicit_mesh_domain_3(Traits traits) : Implicit_mesh_domain_3(traits, Clip_domain_3(traits.bbox())) {}
+  /// Initial points are as dense as the radius of the options, and on dual edges longer than twice that, pairs of
+  /// intersections are looked for. \throw Input_error for bad options
+  explicit Implicit_mesh_domain_3(const Traits& traits, const Mesh_domain_options& options = {})
+      : facet_size_(radius_of(traits, options)),
+        oracle_(std::make_shared<const Oracle>(traits, clip_domain(options.clip, traits.bbox()), 2 * facet_size_)) {}
 
   /// The functor that finds the points with which the mesher begins.
   struct Construct_initial_points {
@@ -329,6 +322,11 @@ public:
 private:
   static constexpr int zero_set_index = 1, border_index = 2, subdomain_index_inside = 1;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  static double radius_of(const Traits& traits, const Mesh_domain_options& options) {
+    options.check();
+    return options.radius ? *options.radius : default_radius(options.clip, traits.bbox());
+  }
 
   static Point_3 to_kernel(const typename Traits::Point_3& p) { return convert_point<Kernel>(p); }
   static typename Traits::Point_3 to_traits(const Point_3& p) { return convert_point<Kernel_of<Traits>>(p); }

@@ -6,7 +6,7 @@
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/convert_point.h>
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/delaunay/Delaunay_criteria.h>
+#include <equiaffine/delaunay/Delaunay_options.h>
 #include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
@@ -50,13 +50,18 @@ struct Delaunay_surface_3 : Isosurface_3<Kernel> {
 #endif
 namespace equiaffine::internal {
 
+/// The criteria that every triangle of a Delaunay mesh satisfies: see Delaunay_options.
+struct Delaunay_criteria {
+  double angle, radius, distance;
+};
+
 /// The arguments of `delaunay_surface`, apart from the function.
 struct Meshing_request_3 {
   Clip_domain_3 domain;
-  Delaunay_criteria criteria; ///< all lengths are positive
+  Delaunay_criteria criteria;
   Facet_sizing sizing;
   std::vector<Polyline_3<Any_function_3::Kernel>> feature_curves;
-  bool has_parabolic_features; ///< the parabolic curves become features in a second mesh
+  bool follows_parabolic_curves; ///< the parabolic curves become features in a second mesh
 };
 
 /// The work of `delaunay_surface`, which does not depend on the type of the function. The library defines it.
@@ -132,34 +137,27 @@ Delaunay_surface_3<Kernel> convert_surface(Delaunay_surface_3<Other> surface) {
 
 template <class Parameters, class... OtherTags>
 constexpr void check_delaunay_parameters() {
-  check_parameters<Parameters, Clip_tag, Facet_sizing_tag, Feature_curves_tag, Parabolic_features_tag, Geom_traits_tag,
-                   Verbose_tag, OtherTags...>();
+  check_parameters<Parameters, Feature_curves_tag, Geom_traits_tag, Verbose_tag, OtherTags...>();
 }
 
 /// The function delaunay_surface() with all its named parameters in one chain, which may have others.
 template <class Traits, class Parameters>
-Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface_of(const Traits& traits, const Delaunay_criteria& criteria,
+Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface_of(const Traits& traits, const Delaunay_options& options,
                                                           const Parameters& parameters) {
-  const auto domain = get_parameter<Clip_tag>(parameters, Clip_domain_3(traits.bbox()));
-  const auto sizing = get_parameter<Facet_sizing_tag>(parameters, Facet_sizing::UNIFORM);
+  options.check();
+  const Clip_domain_3 domain = clip_domain(options.clip, traits.bbox());
+  const Delaunay_options completed = options.completed(traits.bbox());
+  const Delaunay_criteria criteria = {completed.angle, *completed.radius, *completed.distance};
   const auto curves = get_parameter<Feature_curves_tag>(parameters, std::vector<Polyline_3<Kernel_of<Traits>>>());
-  constexpr bool has_parabolic_features = has_parameter<Parabolic_features_tag, Parameters>;
-  const Delaunay_criteria completed = criteria.completed(domain);
-  check_argument(completed.angle >= 0 && completed.angle <= 30,
-                 "the least angle of a Delaunay mesh is not between 0 and 30 degrees: choose one that is");
-  check_argument(
-      completed.radius > 0 && std::isfinite(completed.radius) && completed.distance > 0 &&
-          std::isfinite(completed.distance),
-      "the radius or the distance of a Delaunay mesh is not a positive length: choose one, or 0 for the default");
   const Delaunay_range range(domain.bbox());
   check_argument(range.has_box(), "the box of a Delaunay mesh has a diagonal below 1e-40 or coordinates beyond 1e40: "
                                   "choose another unit");
-  check_argument(completed.radius >= range.least_radius(),
+  check_argument(criteria.radius >= range.least_radius(),
                  "the radius of a Delaunay mesh is less than 2.3e-13 of the greatest coordinate of the box: choose a "
                  "larger one, or an origin nearer to the box");
   return convert_surface<Kernel_of<Traits>>(mesh_surface(
       Any_function_3::make(traits),
-      {domain, completed, sizing, convert_polylines<Any_function_3::Kernel>(curves), has_parabolic_features}));
+      {domain, criteria, options.sizing, convert_polylines<Any_function_3::Kernel>(curves), options.parabolic_curves}));
 }
 
 } // namespace equiaffine::internal
@@ -167,7 +165,7 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface_of(const Traits& traits, 
 namespace equiaffine {
 
 /// Meshes the zero set of a function by Delaunay refinement (Boissonnat, Oudot: Provably good sampling and meshing of
-/// surfaces, 2005). The result is a triangle mesh with vertices on the surface, angles of at least `criteria.angle`,
+/// surfaces, 2005). The result is a triangle mesh with vertices on the surface, angles of at least `options.angle`,
 /// and normals along the gradient.
 ///
 /// CGAL's 3D Mesh Generation refines the mesh. It starts from points on every component of the surface, which are found
@@ -175,8 +173,8 @@ namespace equiaffine {
 /// component was missed, however small. A closed regular surface gives a closed oriented 2-manifold.
 ///
 /// Features are made of edges of the mesh: the curves where the surface meets the border of the clip domain,
-/// `feature_curves`, and the parabolic curves, with their crossings and their ends on the border, if they are asked
-/// for. Where features are nearer to each other than the radius, or meet in sharp corners, edges are shorter, and
+/// `feature_curves`, and, with the option `parabolic_curves`, the parabolic curves with their crossings and their ends on
+/// the border. Where features are nearer to each other than the radius, or meet in sharp corners, edges are shorter, and
 /// angles at the corners smaller. Features nearer to each other than a fiftieth of the radius may lose edges; the mesh
 /// is then not certified, and need not be manifold there. Features much smaller than the radius may be missed.
 /// Nodes of the surface, such as the apex of a cone, are vertices, and so are apexes where f has no gradient, such as
@@ -186,52 +184,34 @@ namespace equiaffine {
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
-/// | `clip` | Clip_domain_3 | the box of the function | where the surface is looked for |
-/// | `facet_sizing` | Facet_sizing | UNIFORM | how the size of facets varies |
 /// | `feature_curves` | range of Polyline_3 | none | curves on the surface that edges follow |
-/// | `parabolic_features` | no value | not given | edges follow the parabolic curves |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
-/// Segments of `feature_curves` are short beside the facets; the mesh has vertices of its own on them. With
-/// `parabolic_features` no triangle has points on both sides of a parabolic curve, where the affine curvatures are
-/// infinite.
-/// \throw std::invalid_argument unless the angle lies in [0, 30], the lengths are positive, or 0 for their defaults,
-/// and finite, the clip domain has an interior and is finite, the diagonal of its box is at least 1e-40 and, as its
-/// coordinates, at most 1e40, and the radius is at least 1024 epsilons of the greatest coordinate
+/// The named parameters `geom_traits` and `verbose` are accepted for compatibility with CGAL; ignored. Segments of
+/// `feature_curves` are short beside the facets; the mesh has vertices of its own on them.
+/// \throw Input_error for bad options
+/// \throw std::invalid_argument unless the clip domain has an interior and is finite, the diagonal of its box is at least
+/// 1e-40 and, as its coordinates, at most 1e40, and the radius is at least 1024 epsilons of the greatest coordinate
 ///
 /// The result is the same on every run. One thread computes it: 20,000 triangles take about 0.2 seconds, and 10 to 40
 /// evaluations per triangle.
 template <ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
-Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, const Delaunay_criteria& criteria,
+Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, const Delaunay_options& options = {},
                                                        const Parameters&... given) {
   internal::check_delaunay_parameters<internal::Joined_parameters<Parameters...>>();
-  return internal::delaunay_surface_of(traits, criteria, internal::joined_parameters(given...));
-}
-/// The same with the default criteria.
-template <ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
-Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, const Parameters&... given) {
-  return delaunay_surface(traits, Delaunay_criteria(), given...);
+  return internal::delaunay_surface_of(traits, options, internal::joined_parameters(given...));
 }
 
 /// The same for the level set f = isovalue, whose points and triangles are added to containers of the caller: see
 /// to_polygon_soup(). The result has no mesh, but the rest.
 template <ImplicitFunctionTraits_3 Traits, class Points, class Triangles, internal::Parameter_chain... Parameters>
-Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, const typename Traits::FT& isovalue,
-                                                       Points& points, Triangles& triangles,
-                                                       const Delaunay_criteria& criteria, const Parameters&... given) {
+Delaunay_surface_3<Kernel_of<Traits>>
+delaunay_surface(const Traits& traits, const typename Traits::FT& isovalue, Points& points, Triangles& triangles,
+                 const Delaunay_options& options = {}, const Parameters&... given) {
   internal::check_delaunay_parameters<internal::Joined_parameters<Parameters...>>();
-  auto surface = internal::delaunay_surface_of(Level_set_traits_3<Traits>(traits, isovalue), criteria,
+  auto surface = internal::delaunay_surface_of(Level_set_traits_3<Traits>(traits, isovalue), options,
                                                internal::joined_parameters(given...));
   to_polygon_soup(surface, points, triangles);
   return internal::without_mesh(std::move(surface));
-}
-
-/// The same with the default criteria.
-template <ImplicitFunctionTraits_3 Traits, class Points, class Triangles, internal::Parameter_chain... Parameters>
-Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, const typename Traits::FT& isovalue,
-                                                       Points& points, Triangles& triangles,
-                                                       const Parameters&... given) {
-  return delaunay_surface(traits, isovalue, points, triangles, Delaunay_criteria(), given...);
 }
 
 /// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph: see to_face_graph(). Further named
@@ -242,28 +222,22 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, con
 /// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
 /// | `vertex_status_map` | writable property map | none | from vertices to Point_status |
 template <ImplicitFunctionTraits_3 Traits, Face_graph Graph, internal::Parameter_chain... Parameters>
-Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Graph& graph,
-                                                       const Delaunay_criteria& criteria, const Parameters&... given) {
+Delaunay_surface_3<Kernel_of<Traits>>
+delaunay_surface(const Traits& traits, Graph& graph, const Delaunay_options& options = {}, const Parameters&... given) {
   using Joined = internal::Joined_parameters<Parameters...>;
   internal::check_delaunay_parameters<Joined, internal::Vertex_point_tag, internal::Vertex_status_tag>();
   const Joined parameters = internal::joined_parameters(given...);
-  auto surface = internal::delaunay_surface_of(traits, criteria, parameters);
+  auto surface = internal::delaunay_surface_of(traits, options, parameters);
   internal::copy_to_graph(surface, graph, parameters);
   return internal::without_mesh(std::move(surface));
-}
-
-/// The same with the default criteria.
-template <ImplicitFunctionTraits_3 Traits, Face_graph Graph, internal::Parameter_chain... Parameters>
-Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, Graph& graph, const Parameters&... given) {
-  return delaunay_surface(traits, graph, Delaunay_criteria(), given...);
 }
 
 /// \cond
 // A call that is mistaken, see explain_sampler.h.
 template <class Traits, class... Others>
 void delaunay_surface(const Traits&,
-                      const Others&...) requires Mistaken_for_sampler<Delaunay_criteria, Traits, Others...> {
-  explain_sampler<Delaunay_criteria, Traits, Others...>();
+                      const Others&...) requires Mistaken_for_sampler<Delaunay_options, Traits, Others...> {
+  explain_sampler<Delaunay_options, Traits, Others...>();
 }
 /// \endcond
 

@@ -11,13 +11,11 @@
 #include <equiaffine/function/Sampled_function_traits_3.h>
 #include <equiaffine/function/Transformed_function_traits_3.h>
 #include <equiaffine/geometry/Point_status.h>
-#include <equiaffine/marching_cubes/Vertex_position.h>
+#include <equiaffine/marching_cubes/Marching_cubes_options.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/Simple_cartesian.h>
 
-#include <array>
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -49,23 +47,22 @@ namespace equiaffine::vectorized {
 /// BASELINE there are some on x86-64 under Linux.
 std::vector<Instruction_set> instruction_sets();
 
-/// Meshes a level set as equiaffine::marching_cubes() does, on a grid with that many nodes along each axis. It skips empty
-/// space, works in threads if the library is compiled with TBB, and evaluates f as often as that function does.
+/// Meshes a level set as equiaffine::marching_cubes() does. It works in threads if the library is compiled with TBB, and
+/// evaluates f as often as that function does.
 ///
 /// \code{.cpp}
 /// using namespace equiaffine;
 /// const vectorized::Formula f(make_analytic_traits<vectorized::Kernel>(Expression_3("x^4 + y^4 + z^4 - 1"), box));
-/// const auto surface = vectorized::marching_cubes(Level_set_traits_3(f, 0.0), {128, 128, 128});
+/// const auto surface = vectorized::marching_cubes(Level_set_traits_3(f, 0.0), {.resolution = 128});
 /// \endcode
 ///
-/// \throw std::invalid_argument if there are fewer than two nodes along an axis, or `set` is not in instruction_sets()
+/// \throw Input_error for bad options, and std::invalid_argument if `set` is not in instruction_sets()
 Isosurface_3<Kernel> marching_cubes(const Level_set_traits_3<Formula>& level_set,
-                                    const std::array<std::size_t, 3>& number_of_nodes = {64, 64, 64},
-                                    Vertex_position vertices = Vertex_position::PROJECTED,
+                                    const Marching_cubes_options& options = {},
                                     Instruction_set set = instruction_sets().back());
 /// The same for a spline, on the lattice of its samples.
 Isosurface_3<Kernel> marching_cubes(const Level_set_traits_3<Spline>& level_set,
-                                    Vertex_position vertices = Vertex_position::PROJECTED,
+                                    const Marching_cubes_options& options = {},
                                     Instruction_set set = instruction_sets().back());
 
 /// Computes the selected attributes of points as equiaffine::compute_attributes() does, by the same number of expansions,

@@ -6,6 +6,8 @@
 
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
+#include <equiaffine/fit/Close_sheets.h>
+#include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
@@ -25,7 +27,6 @@
 #include <optional>
 #include <ranges>
 #include <utility>
-#include <vector>
 
 namespace equiaffine::internal {
 
@@ -72,13 +73,11 @@ public:
 #endif
 
 /// Returns the blend of fits to the data.
-std::shared_ptr<const Fitted_function_3> fitted_function(bool in_threads, Fit_data_3 given, const Fit_request& request);
+/// \throw Input_error if an option makes no sense
+std::shared_ptr<const Fitted_function_3> fitted_function(bool in_threads, Fit_data_3 given, const Fit_options& options);
 
-/// The distances along the normals, in the coordinates of the data, between points and the next ones that are within a
-/// spacing of them across and on another sheet, where these are less than `greatest` and about ten spacings. Points that
-/// are not connected nearby are on different sheets, and points whose normals are opposed, as on both sides of a thin
-/// plate or tube.
-std::vector<double> distances_of_sheets(bool in_threads, const Fitted_data_3& fit, double greatest);
+/// The sheets of the data that a grid on a box does not tell apart.
+Close_sheets close_sheets(bool in_threads, const Fitted_data_3& fit, const CGAL::Bbox_3& box, double longest_step);
 
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility pop
@@ -134,38 +133,35 @@ public:
   /// |---|---|---|---|
   /// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
   /// | `vertex_normal_map` | property map | made of the faces | from vertices to normals |
-  /// | `noise` | `std::optional<double>` | estimated | standard deviation of the points from the surface, a length |
-  /// | `scale` | `std::optional<double>` | 0 | a length; 0: none; `std::nullopt`: the data choose |
-  /// | `ball_radius` | `double` | not given | CGAL's name of `scale`, which counts if both are given |
-  /// | `degree` | `std::optional<int>` | chosen by the data | 4, 5, 6, 8 or 10 |
-  /// | `feature_angle` | `std::optional<double>` | 60 | angle of creases in degrees; `std::nullopt`: no creases |
   /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
   ///
-  /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
+  /// \throw Input_error if an option makes no sense. \throw std::invalid_argument if a coordinate is not finite.
   template <Face_graph Graph, internal::Parameter_chain Parameters = internal::No_parameters,
             std::derived_from<CGAL::Sequential_tag> ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  explicit Fitted_function_traits_3(const Graph& mesh, const Parameters& given = {}, ConcurrencyTag tag = {}) {
+  explicit Fitted_function_traits_3(const Graph& mesh, const Fit_options& options = {}, const Parameters& given = {},
+                                    ConcurrencyTag = {})
+      : Fitted_function_traits_3(
+            internal::fitted_function(runs_in_threads<ConcurrencyTag>(),
+                                      internal::fit_data_of_graph(mesh, internal::joined_parameters(given)), options)) {
     internal::check_mesh_fit_parameters<internal::Joined_parameters<Parameters>>();
-    const auto parameters = internal::joined_parameters(given);
-    make(internal::fit_data_of_graph(mesh, parameters), parameters, tag);
   }
 
-  /// From points. In the place of `vertex_point_map`, `vertex_normal_map` and `feature_angle` there are
+  /// From points. In the place of `vertex_point_map` and `vertex_normal_map` there are
   ///
   /// | named parameter | type | default | meaning |
   /// |---|---|---|---|
   /// | `point_map` | property map | the elements | from elements to points |
   /// | `normal_map` | property map | estimated | from elements to normals |
-  /// | `normal_orientation` | Normal_orientation | ORIENTED | whether given normals are of one side |
   ///
-  /// \throw std::invalid_argument if a coordinate is not finite, or a parameter makes no sense.
+  /// \throw Input_error if an option makes no sense. \throw std::invalid_argument if a coordinate is not finite.
   template <std::ranges::input_range Points, internal::Parameter_chain Parameters = internal::No_parameters,
             std::derived_from<CGAL::Sequential_tag> ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  explicit Fitted_function_traits_3(const Points& points, const Parameters& given = {},
-                                    ConcurrencyTag tag = {}) requires(!Face_graph<Points>) {
+  explicit Fitted_function_traits_3(const Points& points, const Fit_options& options = {}, const Parameters& given = {},
+                                    ConcurrencyTag = {}) requires(!Face_graph<Points>)
+      : Fitted_function_traits_3(internal::fitted_function(
+            runs_in_threads<ConcurrencyTag>(), internal::fit_data_of_points(points, internal::joined_parameters(given)),
+            options)) {
     internal::check_point_fit_parameters<internal::Joined_parameters<Parameters>>();
-    const auto parameters = internal::joined_parameters(given);
-    make(internal::fit_data_of_points(points, parameters), parameters, tag);
   }
 
   /// From points with polygons between them, ranges of positions of points, which need not be a mesh. The named
@@ -174,12 +170,17 @@ public:
   template <std::ranges::input_range Points, std::ranges::input_range Polygons,
             internal::Parameter_chain Parameters = internal::No_parameters,
             std::derived_from<CGAL::Sequential_tag> ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  Fitted_function_traits_3(const Points& points, const Polygons& polygons, const Parameters& given = {},
-                           ConcurrencyTag tag = {}) {
-    internal::check_fit_parameters<internal::Joined_parameters<Parameters>, internal::Feature_angle_tag>();
-    const auto parameters = internal::joined_parameters(given);
-    make(internal::fit_data_of_soup(points, polygons, parameters), parameters, tag);
+  Fitted_function_traits_3(const Points& points, const Polygons& polygons, const Fit_options& options = {},
+                           const Parameters& = {}, ConcurrencyTag = {})
+      : Fitted_function_traits_3(internal::fitted_function(runs_in_threads<ConcurrencyTag>(),
+                                                           internal::fit_data_of_soup(points, polygons), options)) {
+    internal::check_fit_parameters<internal::Joined_parameters<Parameters>>();
   }
+
+  /// \cond for internal use
+  explicit Fitted_function_traits_3(std::shared_ptr<const internal::Fitted_function_3> function)
+      : function_(std::move(function)), box_(function_->box()) {}
+  /// \endcond
 
   /// The same function, to be sampled in another box.
   Fitted_function_traits_3 in_box(const CGAL::Bbox_3& box) const {
@@ -207,7 +208,7 @@ public:
   Jet_3<FT> taylor(const Point_3& p) const { return converted(function_->taylor(coordinates_of(p))); }
 
   /// The whole line for a box that meets the band, as far as boxes around the data tell, and 1 for one where the
-  /// function has no value, so that Marching Cubes with `skip_empty_space` visits the band alone.
+  /// function has no value, so that Marching Cubes visits the band alone.
   Interval bounds(const CGAL::Bbox_3& box) const {
     return function_->may_meet(box, margin_) ? Interval::whole() : Interval(1);
   }
@@ -238,14 +239,13 @@ public:
     return Point_3(FT(q[0]), FT(q[1]), FT(q[2]));
   }
 
-  /// The distances of points from other sheets of the surface, for those that have one nearer than `distance`: points
-  /// beside them that are not connected with them nearby, or have opposed normals. Marching Cubes tells sheets apart
-  /// that are farther from each other than the steps of its grid.
+  /// The sheets of the surface that Marching Cubes on a grid on bbox() does not tell apart, where `longest_step` is the
+  /// longest one of the steps of the grid. These are data beside others that are not connected with them nearby, or have
+  /// opposed normals.
   template <class ConcurrencyTag = CGAL::Sequential_tag>
-  std::vector<FT> distances_of_sheets(const FT& distance) const {
-    const auto found =
-        internal::distances_of_sheets(runs_in_threads<ConcurrencyTag>(), function_->data(), CGAL::to_double(distance));
-    return {found.begin(), found.end()};
+  Close_sheets close_sheets(const FT& longest_step) const {
+    return internal::close_sheets(runs_in_threads<ConcurrencyTag>(), function_->data(), box_,
+                                  CGAL::to_double(longest_step));
   }
 
   /// The box of the band, or the one that `in_box` was given. It is CGAL::Bbox_3() if no polynomial could be fitted.
@@ -255,13 +255,6 @@ public:
   CGAL::Bbox_3 band_box() const { return function_->box(); }
 
 private:
-  template <class Parameters, class ConcurrencyTag>
-  void make(internal::Fit_data_3 data, const Parameters& parameters, ConcurrencyTag) {
-    function_ = internal::fitted_function(runs_in_threads<ConcurrencyTag>(), std::move(data),
-                                          internal::fit_request(parameters));
-    box_ = band_box();
-  }
-
   template <int Order>
   static Jet_3<FT, Order> converted(const Jet_3<double, Order>& jet) {
     Jet_3<FT, Order> result;

@@ -3,26 +3,24 @@
 #ifndef EQUIAFFINE_FIT_FITTED_STRUCTURES_H
 #define EQUIAFFINE_FIT_FITTED_STRUCTURES_H
 
-#include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
+#include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
 #include <equiaffine/mesh/internal/indexed_polygons.h>
 
 #include <CGAL/assertions.h>
-#include <CGAL/number_utils.h>
 #include <CGAL/property_map.h>
 #include <CGAL/tags.h>
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <optional>
 #include <ranges>
 #include <type_traits>
 #include <utility>
@@ -47,12 +45,6 @@ struct Fitted_structure_3 {
   FT deviation;     ///< the standard deviation of data around the point from a smooth surface, a length
 };
 
-/// Says whether the normals that come with points agree about the side of the surface.
-enum class Normal_orientation {
-  ORIENTED,  ///< all point to the same side of the surface
-  UNORIENTED ///< each is right up to its sign
-};
-
 } // namespace equiaffine
 
 namespace equiaffine::internal {
@@ -66,57 +58,22 @@ struct Extent_of_fit {
   static constexpr bool has(double diagonal) { return diagonal == 0 || (least <= diagonal && diagonal <= greatest); }
 };
 
-/// The parameters of fits that a user gave; the data decide the others.
-struct Fit_request {
-  std::optional<double> noise;     ///< a length
-  std::optional<double> scale = 0; ///< a length, or 0 for the surface's own curvature; nothing for one by the data
-  std::optional<int> degree;
-};
-
 /// Refuses named parameters that are neither those of every fit nor among `OtherTags`.
 template <class Parameters, class... OtherTags>
 constexpr void check_fit_parameters() {
-  check_parameters<Parameters, Noise_tag, Scale_tag, Ball_radius_tag, Degree_tag, Geom_traits_tag, Verbose_tag,
-                   OtherTags...>();
+  check_parameters<Parameters, Geom_traits_tag, Verbose_tag, OtherTags...>();
 }
 
 /// The same for meshes.
 template <class Parameters, class... OtherTags>
 constexpr void check_mesh_fit_parameters() {
-  check_fit_parameters<Parameters, Vertex_point_tag, Vertex_normal_tag, Feature_angle_tag, OtherTags...>();
+  check_fit_parameters<Parameters, Vertex_point_tag, Vertex_normal_tag, OtherTags...>();
 }
 
 /// The same for points without faces.
 template <class Parameters, class... OtherTags>
 constexpr void check_point_fit_parameters() {
-  check_fit_parameters<Parameters, Point_tag, Normal_tag, Normal_orientation_tag, OtherTags...>();
-}
-
-/// Reads the named parameters of every fit, and checks their values.
-template <class Parameters>
-Fit_request fit_request(const Parameters& parameters) {
-  Fit_request request;
-  if constexpr (has_parameter<Noise_tag, Parameters>) {
-    request.noise = given_parameter<Noise_tag>(parameters);
-    check_argument(!request.noise || (*request.noise >= 0 && std::isfinite(*request.noise)),
-                   "the noise is a length, 0 or more");
-  }
-  if constexpr (has_parameter<Ball_radius_tag, Parameters>) {
-    const double radius = CGAL::to_double(given_parameter<Ball_radius_tag>(parameters));
-    check_argument(std::isfinite(radius), "the radius of a ball is a length, or -1 for the surface's own curvature");
-    request.scale = std::max(radius, 0.);
-  }
-  if constexpr (has_parameter<Scale_tag, Parameters>) {
-    request.scale = given_parameter<Scale_tag>(parameters);
-    check_argument(!request.scale || (*request.scale >= 0 && std::isfinite(*request.scale)),
-                   "the scale is a length, or 0 for the surface's own curvature");
-  }
-  if constexpr (has_parameter<Degree_tag, Parameters>) {
-    request.degree = given_parameter<Degree_tag>(parameters);
-    const int d = request.degree.value_or(4);
-    check_argument(d == 4 || d == 5 || d == 6 || d == 8 || d == 10, "the degree of a fit is 4, 5, 6, 8 or 10");
-  }
-  return request;
+  check_fit_parameters<Parameters, Point_tag, Normal_tag, OtherTags...>();
 }
 
 /// The data of a fit, as a user gave them.
@@ -131,17 +88,7 @@ struct Fit_data_3 {
   std::vector<Eigen::Vector3d> points = {};
   std::vector<std::vector<std::uint32_t>> polygons = {}; ///< of positions of points
   std::vector<Eigen::Vector3d> normals = {};             ///< one for each point, or none if they are to be estimated
-  Normal_orientation orientation = Normal_orientation::ORIENTED; ///< of the normals of points without polygons
-  std::optional<double> feature_angle = {};                      ///< of creases between polygons, in degrees
 };
-
-/// The angle in degrees of creases, over which fits do not reach and which a remesh keeps; nothing for no creases.
-template <class Parameters>
-std::optional<double> feature_angle(const Parameters& parameters) {
-  const auto angle = get_parameter<Feature_angle_tag>(parameters, std::optional<double>(60.));
-  check_argument(!angle || (*angle >= 0 && *angle <= 180), "the angle of creases is from 0 to 180 degrees");
-  return angle;
-}
 
 // Meshes and points of CGAL become arrays.
 
@@ -151,7 +98,6 @@ Fit_data_3 fit_data_of_graph(const Graph& graph, const Parameters& parameters) {
   check_coordinates<Point_of_vertices<const Graph, Parameters>>();
   Indexed_polygons mesh = indexed_polygons_of_graph(graph, parameters);
   Fit_data_3 data = {Fit_data_3::Kind::MESH, std::move(mesh.points), std::move(mesh.polygons)};
-  data.feature_angle = feature_angle(parameters);
   if constexpr (has_parameter<Vertex_normal_tag, Parameters>)
     for (const auto v : vertices_of(graph))
       data.normals.push_back(coordinates_of(get(given_parameter<Vertex_normal_tag>(parameters), v)));
@@ -169,18 +115,13 @@ Fit_data_3 fit_data_of_points(Points&& range, const Parameters& parameters) {
       data.normals.push_back(coordinates_of(get(given_parameter<Normal_tag>(parameters), element)));
   }
   check_points(data.points);
-  data.orientation = get_parameter<Normal_orientation_tag>(parameters, Normal_orientation::ORIENTED);
   return data;
 }
 
-template <std::ranges::input_range Points, std::ranges::input_range Polygons, class Parameters>
-Fit_data_3 fit_data_of_soup(const Points& points, const Polygons& polygons, const Parameters& parameters) {
-  Fit_data_3 data = {Fit_data_3::Kind::SOUP};
-  data.feature_angle = feature_angle(parameters);
+template <std::ranges::input_range Points, std::ranges::input_range Polygons>
+Fit_data_3 fit_data_of_soup(const Points& points, const Polygons& polygons) {
   Indexed_polygons soup = indexed_polygons_of_soup(points, polygons);
-  data.points = std::move(soup.points);
-  data.polygons = std::move(soup.polygons);
-  return data;
+  return {Fit_data_3::Kind::SOUP, std::move(soup.points), std::move(soup.polygons)};
 }
 
 // The library defines these functions, which do the work of fits. They run in the threads of TBB if `in_threads`. Their
@@ -190,11 +131,13 @@ Fit_data_3 fit_data_of_soup(const Points& points, const Polygons& polygons, cons
 #endif
 
 /// Returns the structure at each of the given points.
+/// \throw Input_error if an option makes no sense
 std::vector<Fitted_structure_3<double>>
-structures_of_data(bool in_threads, Fit_data_3 given, const Fit_request& request, Orientation_of_level_set orientation);
+structures_of_data(bool in_threads, Fit_data_3 given, const Fit_options& options, Orientation_of_level_set orientation);
 
 /// Returns the structure at one vertex of a mesh.
-Fitted_structure_3<double> structure_of_vertex(Fit_data_3 given, const Fit_request& request,
+/// \throw Input_error if an option makes no sense
+Fitted_structure_3<double> structure_of_vertex(Fit_data_3 given, const Fit_options& options,
                                                Orientation_of_level_set orientation, std::size_t i);
 
 #ifdef EQUIAFFINE_SHARED
@@ -203,42 +146,31 @@ Fitted_structure_3<double> structure_of_vertex(Fit_data_3 given, const Fit_reque
 
 // The functions below with all their named parameters in one chain, which may have others.
 
-template <class Parameters>
-Orientation_of_level_set orientation_of(const Parameters& parameters) {
-  return get_parameter<Orientation_tag>(parameters, Orientation_of_level_set::ALONG_GRADIENT);
-}
-
-template <class ConcurrencyTag, class Parameters>
-std::vector<Fitted_structure_3<double>> structures_by_request(Fit_data_3 data, const Parameters& parameters) {
-  return structures_of_data(runs_in_threads<ConcurrencyTag>(), std::move(data), fit_request(parameters),
-                            orientation_of(parameters));
-}
-
 template <class ConcurrencyTag, class Graph, class Parameters>
-std::vector<Fitted_structure_3<double>> fitted_structures_of_graph(const Graph& mesh, const Parameters& parameters) {
-  return structures_by_request<ConcurrencyTag>(fit_data_of_graph(mesh, parameters), parameters);
+std::vector<Fitted_structure_3<double>> fitted_structures_of_graph(const Graph& mesh, const Fit_options& options,
+                                                                   Orientation_of_level_set orientation,
+                                                                   const Parameters& parameters) {
+  return structures_of_data(runs_in_threads<ConcurrencyTag>(), fit_data_of_graph(mesh, parameters), options,
+                            orientation);
 }
 
 template <class Vertex, class Graph, class Parameters>
-Fitted_structure_3<double> fitted_structure_of_vertex(const Vertex& v, const Graph& mesh,
+Fitted_structure_3<double> fitted_structure_of_vertex(const Vertex& v, const Graph& mesh, const Fit_options& options,
+                                                      Orientation_of_level_set orientation,
                                                       const Parameters& parameters) {
   const auto all = vertices_of(mesh);
   const auto place = std::find(std::begin(all), std::end(all), v);
   CGAL_precondition_msg(place != std::end(all), "the vertex is none of the mesh");
   const auto i = std::size_t(std::distance(std::begin(all), place));
-  return structure_of_vertex(fit_data_of_graph(mesh, parameters), fit_request(parameters), orientation_of(parameters),
-                             i);
+  return structure_of_vertex(fit_data_of_graph(mesh, parameters), options, orientation, i);
 }
 
 template <class ConcurrencyTag, class Points, class Parameters>
-std::vector<Fitted_structure_3<double>> fitted_structures_of_points(Points&& points, const Parameters& parameters) {
-  return structures_by_request<ConcurrencyTag>(fit_data_of_points(points, parameters), parameters);
-}
-
-template <class ConcurrencyTag, class Points, class Polygons, class Parameters>
-std::vector<Fitted_structure_3<double>> fitted_structures_of_soup(const Points& points, const Polygons& polygons,
-                                                                  const Parameters& parameters) {
-  return structures_by_request<ConcurrencyTag>(fit_data_of_soup(points, polygons, parameters), parameters);
+std::vector<Fitted_structure_3<double>> fitted_structures_of_points(Points&& points, const Fit_options& options,
+                                                                    Orientation_of_level_set orientation,
+                                                                    const Parameters& parameters) {
+  return structures_of_data(runs_in_threads<ConcurrencyTag>(), fit_data_of_points(points, parameters), options,
+                            orientation);
 }
 
 } // namespace equiaffine::internal
@@ -264,10 +196,10 @@ namespace equiaffine {
 /// below 1e-4 of the spacing, the greater degree answers, and a smaller ball tells its error.
 ///
 /// Scans and coarse meshes have sensible curvatures at a scale only. These are by definition, see doc/conventions.md,
-/// those of polynomials in space of degree 4, or of `degree`, fitted within 1.14 of the scale. `scale` is that scale;
-/// `scale(std::nullopt)` lets the data choose: none where they resolve the surface, else the smallest at which K is
-/// known to 20 % at half of the vertices, at most an eighth of the diagonal. Without the parameter, or with 0,
-/// curvatures are the surface's own. Fits are made at most 0.02 of the scale apart, and errors are 2 to 2.5 times the
+/// those of polynomials in space of degree 4, or of `degree`, fitted within 1.14 of the scale. By default the data choose:
+/// no scale where they resolve the surface, else the smallest one at which K is known to 20 % at half of the vertices, at
+/// most an eighth of the diagonal. With a scale of 0 curvatures are the surface's own. Fits are made at most 0.02 of the
+/// scale apart, and errors are 2 to 2.5 times the
 /// standard deviation that noise and sampling make of the numbers at that scale, as halves of scans tell. At a scale that
 /// the data choose they also count what the scale mixes where the data are exact, such as a jump of the curvature.
 ///
@@ -285,9 +217,9 @@ namespace equiaffine {
 /// its own curvature, and a vertex on a crease has that of the side with the most area around it. At creases that are
 /// less sharp a fit exists, and its error says that it means nothing.
 ///
-/// \throw std::invalid_argument if a coordinate is not finite, the diagonal of the points is below 1e-40 or beyond
-/// 1e40, or a parameter makes no sense, as a scale beyond a third of the diagonal of the data, or one within which most
-/// vertices have too few others.
+/// \throw Input_error if an option makes no sense, such as a scale beyond a third of the diagonal of the data, or one
+/// within which most vertices have too few others. \throw std::invalid_argument if a coordinate is not finite, or the
+/// diagonal of the points is below 1e-40 or beyond 1e40.
 ///
 /// Takes about 1 ms per vertex, also at a scale; memory is linear in the number of vertices. The numbers are the same
 /// for CGAL::Sequential_tag and CGAL::Parallel_tag. Normals that come with a mesh help where its faces are coarse
@@ -297,26 +229,33 @@ namespace equiaffine {
 /// |---|---|---|---|
 /// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
 /// | `vertex_normal_map` | property map | made of the faces | from vertices to normals |
-/// | `noise` | `std::optional<double>` | estimated | standard deviation of the points from the surface, a length |
-/// | `scale` | `std::optional<double>` | 0 | a length; 0: none; `std::nullopt`: the data choose |
-/// | `ball_radius` | `double` | not given | CGAL's name of `scale`, which counts if both are given |
-/// | `degree` | `std::optional<int>` | chosen by the data | 4, 5, 6, or of heights 8, 10 |
-/// | `feature_angle` | `std::optional<double>` | 60 | angle of creases in degrees; `std::nullopt`: no creases |
-/// | `orientation` | Orientation_of_level_set | ALONG_GRADIENT | AGAINST_GRADIENT turns normals round |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// With AGAINST_GRADIENT the structure is that of the surface with normals on the other side.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>
-std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, const Parameters&... given) {
-  internal::check_mesh_fit_parameters<internal::Joined_parameters<Parameters...>, internal::Orientation_tag>();
-  return internal::fitted_structures_of_graph<ConcurrencyTag>(mesh, internal::joined_parameters(given...));
+std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, const Fit_options& options,
+                                                          Orientation_of_level_set orientation,
+                                                          const Parameters&... given) {
+  internal::check_mesh_fit_parameters<internal::Joined_parameters<Parameters...>>();
+  return internal::fitted_structures_of_graph<ConcurrencyTag>(mesh, options, orientation,
+                                                              internal::joined_parameters(given...));
+}
+/// The same with normals on the side of the mesh.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>
+std::vector<Fitted_structure_3<double>> fitted_structures(const Graph& mesh, const Fit_options& options = {},
+                                                          const Parameters&... given) {
+  return fitted_structures<ConcurrencyTag>(mesh, options, Orientation_of_level_set::ALONG_GRADIENT, given...);
 }
 
 /// Returns the local structure at one vertex, from the fit around it: that of the overload for all vertices to within
 /// the estimated error, since most of these have the fit around a vertex nearby. This takes the choice of how to fit,
-/// some hundred fits, unless a `scale` is given. The named parameters are those of that overload.
+/// some hundred fits, unless there is a scale above 0. The named parameters are those of that overload.
 template <class Vertex, Face_graph Graph, internal::Parameter_chain... Parameters>
-Fitted_structure_3<double> fitted_structure(const Vertex& v, const Graph& mesh, const Parameters&... given) {
-  internal::check_mesh_fit_parameters<internal::Joined_parameters<Parameters...>, internal::Orientation_tag>();
-  return internal::fitted_structure_of_vertex(v, mesh, internal::joined_parameters(given...));
+Fitted_structure_3<double> fitted_structure(const Vertex& v, const Graph& mesh, const Fit_options& options = {},
+                                            const Parameters&... given) {
+  internal::check_mesh_fit_parameters<internal::Joined_parameters<Parameters...>>();
+  return internal::fitted_structure_of_vertex(v, mesh, options, Orientation_of_level_set::ALONG_GRADIENT,
+                                              internal::joined_parameters(given...));
 }
 
 /// Returns the local structure at points without faces, in their order. Neighbors are the 16 nearest points, so that
@@ -328,55 +267,58 @@ Fitted_structure_3<double> fitted_structure(const Vertex& v, const Graph& mesh, 
 /// |---|---|---|---|
 /// | `point_map` | property map | the elements | from elements to points |
 /// | `normal_map` | property map | estimated | from elements to normals |
-/// | `normal_orientation` | Normal_orientation | ORIENTED | whether given normals are of one side |
-/// | `noise` | `std::optional<double>` | estimated | standard deviation of the points from the surface, a length |
-/// | `scale` | `std::optional<double>` | 0 | a length; 0: none; `std::nullopt`: the data choose |
-/// | `ball_radius` | `double` | not given | CGAL's name of `scale`, which counts if both are given |
-/// | `degree` | `std::optional<int>` | chosen by the data | 4, 5, 6, or of heights 8, 10 |
-/// | `orientation` | Orientation_of_level_set | ALONG_GRADIENT | AGAINST_GRADIENT turns normals round |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
           internal::Parameter_chain... Parameters>
-std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points,
+std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, const Fit_options& options,
+                                                          Orientation_of_level_set orientation,
                                                           const Parameters&... given) requires(!Face_graph<Points>) {
-  internal::check_point_fit_parameters<internal::Joined_parameters<Parameters...>, internal::Orientation_tag>();
-  return internal::fitted_structures_of_points<ConcurrencyTag>(points, internal::joined_parameters(given...));
+  internal::check_point_fit_parameters<internal::Joined_parameters<Parameters...>>();
+  return internal::fitted_structures_of_points<ConcurrencyTag>(points, options, orientation,
+                                                               internal::joined_parameters(given...));
+}
+/// The same with normals on the side of the given ones.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
+          internal::Parameter_chain... Parameters>
+std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, const Fit_options& options = {},
+                                                          const Parameters&... given) requires(!Face_graph<Points>) {
+  return fitted_structures<ConcurrencyTag>(points, options, Orientation_of_level_set::ALONG_GRADIENT, given...);
 }
 
 /// Returns the local structure at points with polygons between them, in the order of the points. A polygon is a range
-/// of positions of points. It need not be a mesh: equal points count once, polygons whose orientations contradict are
-/// turned to agree with the first one of what is connected with them, and the surface comes apart where it is not a
-/// manifold.
+/// of positions of points. It need not be a mesh: equal points count once, inconsistently oriented polygons are flipped to
+/// match the first one of their component, and the surface is cut open where it is not a manifold.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
-/// | `noise` | `std::optional<double>` | estimated | standard deviation of the points from the surface, a length |
-/// | `scale` | `std::optional<double>` | 0 | a length; 0: none; `std::nullopt`: the data choose |
-/// | `ball_radius` | `double` | not given | CGAL's name of `scale`, which counts if both are given |
-/// | `degree` | `std::optional<int>` | chosen by the data | 4, 5, 6, or of heights 8, 10 |
-/// | `feature_angle` | `std::optional<double>` | 60 | angle of creases in degrees; `std::nullopt`: no creases |
-/// | `orientation` | Orientation_of_level_set | ALONG_GRADIENT | AGAINST_GRADIENT turns normals round |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
 /// \throw std::invalid_argument also if a polygon has the position of no point.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
           std::ranges::input_range Polygons, internal::Parameter_chain... Parameters>
 std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, const Polygons& polygons,
-                                                          const Parameters&... given) {
-  internal::check_fit_parameters<internal::Joined_parameters<Parameters...>, internal::Orientation_tag,
-                                 internal::Feature_angle_tag>();
-  return internal::fitted_structures_of_soup<ConcurrencyTag>(points, polygons, internal::joined_parameters(given...));
+                                                          const Fit_options& options,
+                                                          Orientation_of_level_set orientation, const Parameters&...) {
+  internal::check_fit_parameters<internal::Joined_parameters<Parameters...>>();
+  return internal::structures_of_data(runs_in_threads<ConcurrencyTag>(), internal::fit_data_of_soup(points, polygons),
+                                      options, orientation);
+}
+/// The same with normals on the side of the polygons.
+template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
+          std::ranges::input_range Polygons, internal::Parameter_chain... Parameters>
+std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, const Polygons& polygons,
+                                                          const Fit_options& options = {}, const Parameters&... given) {
+  return fitted_structures<ConcurrencyTag>(points, polygons, options, Orientation_of_level_set::ALONG_GRADIENT,
+                                           given...);
 }
 
 /// \cond
-// Calls that are mistaken, see base/named_parameters.h.
+// A call that is mistaken, see base/named_parameters.h.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class First, class... Others>
 void fitted_structures(const Elements&, const First&, const Others&...) requires(
-    (Face_graph<Elements> || std::ranges::input_range<Elements>)&&!(
-        (internal::Parameter_chain<First> || (std::ranges::input_range<First> && !Face_graph<Elements>)) &&
-        (internal::Parameter_chain<Others> && ...))) {
-  if constexpr (Face_graph<Elements> || !std::ranges::input_range<First>) internal::explain_parameters<First>();
-  internal::explain_parameters<Others...>();
+    (Face_graph<Elements> || (std::ranges::input_range<Elements> && !std::ranges::input_range<First>)) &&
+    !std::convertible_to<First, Fit_options>) {
+  internal::explain_options<First>();
 }
 /// \endcond
 

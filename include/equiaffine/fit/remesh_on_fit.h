@@ -6,9 +6,9 @@
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
+#include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/fit/Fit_outcome.h>
 #include <equiaffine/fit/Fitted_function_traits_3.h>
-#include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/fit/internal/Creased_polygons_3.h>
 #include <equiaffine/fit/move_to_fit.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
@@ -35,7 +35,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -145,11 +144,6 @@ private:
   const Triangle_tree_3 tree_;
 };
 
-struct Remesh_request {
-  std::optional<double> edge_length, feature_angle;
-  unsigned iterations;
-};
-
 /// Remeshes a copy of a mesh so that its topology stays, triangles cross each other only where some did before, and
 /// both meshes are within a tenth of an edge of each other: with edges of a length, or shorter ones if that is too long.
 /// If none of them will do, the mesh stays as it is.
@@ -163,21 +157,23 @@ public:
 
   /// The map that `name_of_edges` has in the mesh marks the edges that are kept.
   template <class ConcurrencyTag>
-  Whole_remesh_3(const Mesh& given, const Remesh_request& request, ConcurrencyTag)
+  Whole_remesh_3(const Mesh& given, const Remesh_options& options, ConcurrencyTag)
       : array_(triangle_array_of(given, No_parameters())), mesh_(given) {
     const Topology topology = topology_of(given, array_);
     const std::vector<Triangle_pair> given_crossings = crossing_triangles(array_.points(), array_.triangles());
     if (given.number_of_faces() == 0) return;
     const Triangle_array_3 given_array = array_;
-    if (request.feature_angle) creases_ = creases_of(given_array, *request.feature_angle);
+    creases_ = creases_of(given_array, options.feature_angle);
     if (!has_degenerate_face(given)) {
       const double mean = mean_edge(given), least = least_length(given), shortest = std::max(mean / 4, least);
-      edge_length_ = std::min(request.edge_length.value_or(mean), diagonal_of(given_array));
-      check_argument(edge_length_ >= least, "edges of that length would make more than 10^8 triangles, or more than "
-                                            "10^4 parts of an edge: give longer ones");
+      edge_length_ = std::min(options.edge_length.value_or(mean), diagonal_of(given_array));
+      if (!(edge_length_ >= least))
+        throw Input_error::about("edge_length",
+                                 "edges of that length would make more than 10^8 triangles, or more than "
+                                 "10^4 parts of an edge: give longer ones");
       const Deviation_3 deviation(given_array);
       do {
-        if (remesh_nearby<ConcurrencyTag>(given, given_array, deviation, request.iterations) &&
+        if (remesh_nearby<ConcurrencyTag>(given, given_array, deviation, options.iterations) &&
             topology_of(mesh_, array_) == topology) {
           crossings_ = crossing_triangles(array_.points(), array_.triangles());
           if (Crossing_places_3(given_array, given_crossings, edge_length_).contain(array_, crossings_)) return;
@@ -345,18 +341,6 @@ private:
   double edge_length_ = 0;
 };
 
-template <class Parameters>
-Remesh_request remesh_request(const Parameters& parameters) {
-  const Remesh_request request = {
-      get_parameter<Target_edge_length_tag>(parameters, std::optional<double>()),
-      feature_angle(parameters),
-      get_parameter<Number_of_iterations_tag>(parameters, 3u),
-  };
-  check_argument(!request.edge_length || (*request.edge_length > 0 && std::isfinite(*request.edge_length)),
-                 "the length of the edges of a remesh is a positive number");
-  return request;
-}
-
 /// Copies a mesh, and marks the edges that are to be kept in the map of Whole_remesh_3.
 template <class Kernel, class Mesh, class Parameters>
 typename Whole_remesh_3<Kernel>::Mesh copy_to_remesh(const Mesh& mesh, const Parameters& parameters) {
@@ -400,6 +384,27 @@ void replace_by_remesh(Mesh& mesh, Whole_remesh_3<Kernel>& whole_remesh, const O
   }
 }
 
+/// Moves the remesh of a mesh, and replaces the mesh by it.
+template <class ConcurrencyTag, class Kernel, class Mesh, class Parameters>
+Fit_remesh_report replace_by_moved(Mesh& mesh, Whole_remesh_3<Kernel>& remesh, const Whole_motion_3& motion,
+                                   const Parameters& parameters) {
+  const Triangle_array_3 data = triangle_array_of(mesh, parameters);
+  using Vertex = typename Whole_remesh_3<Kernel>::Mesh::Vertex_index;
+  const auto outcomes = remesh.mesh().template add_property_map<Vertex, Fit_outcome>("v:equiaffine_outcome").first;
+  const auto report = apply_motion<Kernel>(remesh.mesh(), motion, equiaffine::parameters::vertex_outcome_map(outcomes));
+  replace_by_remesh<Kernel>(mesh, remesh, outcomes, parameters);
+  const auto [from_data, of_data] =
+      Deviation_3(data).greatest<ConcurrencyTag>({motion.points(), remesh.array().triangles()});
+  return {report, remesh.edge_length(), from_data, of_data};
+}
+
+/// Refuses named parameters that are neither those of every remesh nor among `OtherTags`.
+template <class Parameters, class... OtherTags>
+constexpr void check_remesh_parameters() {
+  check_parameters<Parameters, Vertex_point_tag, Vertex_outcome_tag, Edge_is_constrained_tag, Geom_traits_tag,
+                   Verbose_tag, OtherTags...>();
+}
+
 } // namespace equiaffine::internal
 
 namespace equiaffine {
@@ -420,39 +425,28 @@ namespace equiaffine {
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
-/// | `target_edge_length` | `std::optional<double>` | the mean of those given | a length |
-/// | `number_of_iterations` | `unsigned` | 3 | rounds of splits, collapses, flips and relaxation |
-/// | `feature_angle` | `std::optional<double>` | 60 | angle of edges that are kept, in degrees; `std::nullopt`: none |
 /// | `edge_is_constrained_map` | writable property map | none | from edges to bool: those that are kept |
 /// | `vertex_point_map` | writable property map | the mesh's own | from vertices to points of the fit's kernel |
 /// | `vertex_outcome_map` | writable property map | none | from vertices of the result to Fit_outcome |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
 /// `edge_is_constrained_map` says of the edges of the result, too, whether they are kept. Takes n log n time, some 0.1
-/// ms per vertex, for each of the lengths that are tried, and as much again up to seven times where edges are kept. CGAL::Parallel_tag gives the same numbers.
-/// \throw std::invalid_argument if a face is not a triangle, a coordinate is not finite, a parameter makes no sense, or
-/// there would be more than 10^8 triangles, or more than 10^4 parts of an edge. The mesh is as it was then.
+/// ms per vertex, for each of the lengths that are tried, and as much again up to seven times where edges are kept.
+/// CGAL::Parallel_tag gives the same numbers.
+/// \throw Input_error if an option makes no sense, or edges of that length would make more than 10^8 triangles, or more
+/// than 10^4 parts of an edge. \throw std::invalid_argument if a face is not a triangle, or a coordinate is not finite. The
+/// mesh is as it was then.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, class Kernel,
           internal::Parameter_chain... Parameters>
-Fit_remesh_report remesh_on_fit(Mesh& mesh, const Fitted_function_traits_3<Kernel>& fit, const Parameters&... given) {
-  internal::check_parameters<internal::Joined_parameters<Parameters...>, internal::Vertex_point_tag,
-                             internal::Vertex_outcome_tag, internal::Target_edge_length_tag,
-                             internal::Number_of_iterations_tag, internal::Edge_is_constrained_tag,
-                             internal::Feature_angle_tag, internal::Geom_traits_tag, internal::Verbose_tag>();
+Fit_remesh_report remesh_on_fit(Mesh& mesh, const Fitted_function_traits_3<Kernel>& fit,
+                                const Remesh_options& options = {}, const Parameters&... given) {
+  internal::check_remesh_parameters<internal::Joined_parameters<Parameters...>>();
+  options.check();
   const auto np = internal::joined_parameters(given...);
-  const internal::Remesh_request request = internal::remesh_request(np);
-  const internal::Triangle_array_3 data = internal::triangle_array_of(mesh, np);
-  internal::Whole_remesh_3<Kernel> remesh(internal::copy_to_remesh<Kernel>(mesh, np), request, ConcurrencyTag());
+  internal::Whole_remesh_3<Kernel> remesh(internal::copy_to_remesh<Kernel>(mesh, np), options, ConcurrencyTag());
   const auto motion =
       internal::motion_to_fit<ConcurrencyTag>(remesh.array(), fit, remesh.crossings(), remesh.features());
-  auto& moved = remesh.mesh();
-  using Vertex = typename internal::Whole_remesh_3<Kernel>::Mesh::Vertex_index;
-  const auto outcomes = moved.template add_property_map<Vertex, Fit_outcome>("v:equiaffine_outcome").first;
-  const auto report = internal::apply_motion<Kernel>(moved, motion, parameters::vertex_outcome_map(outcomes));
-  internal::replace_by_remesh<Kernel>(mesh, remesh, outcomes, np);
-  const auto [from_data, of_data] =
-      internal::Deviation_3(data).greatest<ConcurrencyTag>({motion.points(), remesh.array().triangles()});
-  return {report, remesh.edge_length(), from_data, of_data};
+  return internal::replace_by_moved<ConcurrencyTag>(mesh, remesh, motion, np);
 }
 
 } // namespace equiaffine

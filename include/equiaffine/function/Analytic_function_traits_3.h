@@ -5,6 +5,8 @@
 #include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/function/expand.h>
+#include <equiaffine/number/Interval.h>
+#include <equiaffine/number/Jet_3.h>
 #include <equiaffine/number/Pack.h>
 
 #include <CGAL/Algebraic_structure_traits.h>
@@ -29,10 +31,16 @@ namespace equiaffine {
 ///
 /// f is called with FT, Interval and jets of both; Marching Cubes, max_distance_to_surface and compute_attributes call
 /// it with jets of Pack<FT>, too. Elementary functions must be found by argument-dependent lookup: `std::exp(x)` does not
-/// compile, since the standard library has no exponential of a jet; write `using std::exp; return exp(x);`. With three template parameters, or `auto`, for the arguments and `auto` for intermediate results
-/// it computes only the derivatives that its structure leaves nonzero.
+/// compile, since the standard library has no exponential of a jet; write `using std::exp; return exp(x);`. With three
+/// template parameters, or `auto`, for the arguments and `auto` for intermediate results it computes only the derivatives
+/// that its structure leaves nonzero.
+///
+/// Bounds are the whole line on a box where a comparison in f has no single answer. A function that cannot take Interval
+/// has no bounds if it has a constraint that excludes this type.
 template <class Kernel, class Function>
 class Analytic_function_traits_3 {
+  static constexpr bool takes_intervals = internal::CallableWith<Function, Interval, Interval, Interval>;
+
 public:
   using FT = typename Kernel::FT;             ///< the number type of the kernel
   using Point_3 = typename Kernel::Point_3;   ///< points of the kernel
@@ -91,21 +99,23 @@ public:
   }
 
   /// Bounds of the value on a box: f of its sides as intervals.
-  Interval bounds(const CGAL::Bbox_3& box) const {
+  Interval bounds(const CGAL::Bbox_3& box) const requires takes_intervals {
     const auto [x, y, z] = internal::sides_of(box);
-    return function_(x, y, z);
+    try {
+      return function_(x, y, z);
+    } catch (const Undecided_comparison&) {
+      return Interval::whole();
+    }
   }
 
   /// Bounds of value and gradient on a box: the expansion of order 1 in interval arithmetic.
-  Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
-    const auto [x, y, z] = internal::sides_of(box);
-    return expand<1, Interval>(function_, x, y, z);
+  Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const requires takes_intervals {
+    return expansion_bounds<1>(box);
   }
 
   /// Bounds of the expansion of order 2 on a box, in interval arithmetic.
-  Jet_3<Interval, 2> second_order_bounds(const CGAL::Bbox_3& box) const {
-    const auto [x, y, z] = internal::sides_of(box);
-    return expand<2, Interval>(function_, x, y, z);
+  Jet_3<Interval, 2> second_order_bounds(const CGAL::Bbox_3& box) const requires takes_intervals {
+    return expansion_bounds<2>(box);
   }
 
   /// The model of the function that f.restricted(x, y, z) returns for the sides of a box, if it returns one.
@@ -121,6 +131,18 @@ public:
   const Function& function() const { return function_; } ///< f
 
 private:
+  template <int Order>
+  Jet_3<Interval, Order> expansion_bounds(const CGAL::Bbox_3& box) const {
+    const auto [x, y, z] = internal::sides_of(box);
+    try {
+      return expand<Order, Interval>(function_, x, y, z);
+    } catch (const Undecided_comparison&) {
+      Jet_3<Interval, Order> jet;
+      jet.coefficients().fill(Interval::whole());
+      return jet;
+    }
+  }
+
   Function function_;
   CGAL::Bbox_3 box_;
 };

@@ -39,24 +39,26 @@ public:
   using Point_3 = typename Kernel::Point_3;   ///< points of the kernel
   using Vector_3 = typename Kernel::Vector_3; ///< vectors of the kernel
 
-  /// Makes the spline that `parameters` ask for. If they smooth the samples, `sample` returns smoothed ones. A Volume_3
-  /// is copied or moved, and a view of samples of any type only viewed.
+  /// Makes the spline that the options ask for. If they smooth the samples, `sample` returns smoothed ones. A Volume_3
+  /// is copied or moved, and a view of samples of any type only viewed. \throw Input_error for bad options
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  explicit Sampled_function_traits_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters = {},
+  explicit Sampled_function_traits_3(const Volume_view_3<Kernel>& volume, const Volume_options& options = {},
                                      ConcurrencyTag tag = {})
-      : Sampled_function_traits_3(volume, parameters, Volume_part{volume.cells()}, tag) {}
+      : Sampled_function_traits_3(volume, options, Volume_part{volume.cells()}, tag) {}
 
   /// Makes the same function, bit for bit, of a part of a volume: where all samples are known that it depends on, as
-  /// cells_to_know() says. \throw std::invalid_argument if that is nowhere, and for interpolation, which needs all samples
+  /// cells_to_know() says. \throw Input_error for bad options, and std::invalid_argument if that is nowhere, and for
+  /// interpolation, which needs all samples
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  Sampled_function_traits_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters,
-                            const Volume_part& part, ConcurrencyTag tag = {})
+  Sampled_function_traits_3(const Volume_view_3<Kernel>& volume, const Volume_options& options, const Volume_part& part,
+                            ConcurrencyTag tag = {})
       : volume_(volume) {
-    Volume_survey survey = internal::volume_survey<ConcurrencyTag>(volume, parameters, part.cells);
+    const FT smoothing = FT(*internal::with_smoothing<ConcurrencyTag>(volume, options).smoothing);
+    Volume_survey survey = internal::volume_survey<ConcurrencyTag>(volume, options, part.cells);
     part.reduce(survey);
-    volume_ = smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing), survey.border_votes);
-    spline_ = std::make_shared<const Spline_function_3<Kernel>>(volume_, parameters, survey, tag);
-    rounding_ = std::make_shared<const Spline_rounding_3<Kernel>>(*spline_, FT(parameters.smoothing), survey);
+    volume_ = smooth_volume<ConcurrencyTag>(volume, smoothing, survey.border_votes);
+    spline_ = std::make_shared<const Spline_function_3<Kernel>>(volume_, options, survey, tag);
+    rounding_ = std::make_shared<const Spline_rounding_3<Kernel>>(*spline_, smoothing, survey);
   }
 
   /// Values and coefficients of expansions are NaN outside the support of the spline.
@@ -111,12 +113,11 @@ static_assert(CellwiseImplicitFunctionTraits_3<Sampled_function_traits_3<CGAL::S
 
 /// The kernel is that of the volume.
 template <class Kernel>
-Sampled_function_traits_3(Volume_3<Kernel>, const Spline_parameters& = {}) -> Sampled_function_traits_3<Kernel>;
+Sampled_function_traits_3(Volume_3<Kernel>, const Volume_options& = {}) -> Sampled_function_traits_3<Kernel>;
 
 /// The kernel is that of the volume.
 template <class Kernel, class ConcurrencyTag>
-Sampled_function_traits_3(Volume_3<Kernel>, const Spline_parameters&, ConcurrencyTag)
-    -> Sampled_function_traits_3<Kernel>;
+Sampled_function_traits_3(Volume_3<Kernel>, const Volume_options&, ConcurrencyTag) -> Sampled_function_traits_3<Kernel>;
 
 } // namespace equiaffine
 

@@ -9,7 +9,7 @@
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/function/capabilities.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/marching_cubes/Vertex_position.h>
+#include <equiaffine/marching_cubes/Marching_cubes_options.h>
 #include <equiaffine/marching_cubes/internal/isosurface_extraction.h>
 #include <equiaffine/marching_cubes/internal/isosurface_plan.h>
 #include <equiaffine/marching_cubes/internal/lattice_function.h>
@@ -32,6 +32,7 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -163,9 +164,14 @@ struct Sampled_signs {
   std::size_t evaluations;
 };
 
-/// If SkipsEmptySpace, the function is evaluated near its zero set only. This does not apply to functions that already
-/// have their values at the nodes.
-template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
+/// Whether a function is evaluated near its zero set only: if it has bounds, and not its values at the nodes already.
+/// Functions of other numbers than those of the processor may have constants that do not convert to intervals.
+template <class Traits>
+inline constexpr bool skips_empty_space =
+    BoundedImplicitFunctionTraits_3<Traits> && !Lattice_function<Traits>::has_samples &&
+    std::is_floating_point_v<typename Traits::FT>;
+
+template <class ConcurrencyTag, class Traits>
 Sampled_signs sample_signs(const Lattice_function<Traits>& function) {
   constexpr std::size_t planes_per_slab = Lattice_function<Traits>::has_samples ? 16 : 8;
   const auto& size = function.size();
@@ -175,7 +181,7 @@ Sampled_signs sample_signs(const Lattice_function<Traits>& function) {
     Block_sampler<Traits> sampler(function, signs);
     const Index_range planes = {planes_per_slab * s, std::min(size[2], planes_per_slab * (s + 1))};
     const Node_block slab = {{{0, size[0]}, {0, size[1]}, planes}};
-    if constexpr (SkipsEmptySpace && !Lattice_function<Traits>::has_samples) sampler.sample_near_surface(slab);
+    if constexpr (skips_empty_space<Traits>) sampler.sample_near_surface(slab);
     else sampler.sample_all(slab);
     evaluations[s] = sampler.evaluations();
   });
@@ -223,14 +229,14 @@ struct Isosurface_in_layers {
 
 /// Computes the surface of a function on a lattice, or on a part of it: first the topology from the signs and values at
 /// the nodes, then the vertices.
-template <class ConcurrencyTag, bool SkipsEmptySpace, bool WithIds = false, class Traits>
+template <class ConcurrencyTag, bool WithIds = false, class Traits>
 Isosurface_in_layers<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_function<Traits>& function,
                                                               Vertex_position position) {
   using FT = typename Traits::FT;
   using Cell = std::array<std::size_t, 3>;
   CGAL::Real_timer timer;
   timer.start();
-  const Sampled_signs sampled = sample_signs<ConcurrencyTag, SkipsEmptySpace>(function);
+  const Sampled_signs sampled = sample_signs<ConcurrencyTag>(function);
   const Isosurface_plan plan = plan_isosurface<ConcurrencyTag>(sampled.signs, function, Case_table::instance());
   const std::size_t vertices = plan.numbering.number_of_vertices();
   const std::size_t inner = plan.numbering.number_of_inner_vertices(), edge_vertices = vertices - inner;
@@ -276,32 +282,17 @@ Isosurface_in_layers<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_func
   return {std::move(surface), std::move(bounds), report.is_undecided, std::move(ids)};
 }
 
-template <class Parameters, class... OtherTags>
-constexpr void check_marching_cubes_parameters() {
-  check_parameters<Parameters, Number_of_nodes_tag, Vertex_position_tag, Skip_empty_space_tag, Geom_traits_tag,
-                   Verbose_tag, OtherTags...>();
+/// A function on its own lattice, or on one with the nodes that the options say. \throw Input_error for bad options
+template <class Traits>
+Lattice_function<Traits> on_lattice(const Traits& traits, const Marching_cubes_options& options) {
+  options.check();
+  if constexpr (LatticeImplicitFunctionTraits_3<Traits>) return {traits, traits.lattice()};
+  else return {traits, sampling_lattice(traits, options.resolution.nodes())};
 }
 
-/// Returns run<SkipsEmptySpace>(function, position) for what the named parameters of marching_cubes() say.
-template <class Traits, class Parameters, class Run>
-auto with_marching_cubes_of(const Traits& traits, const Parameters& parameters, const Run& run) {
-  constexpr std::array<std::size_t, 3> default_number_of_nodes = {64, 64, 64};
-  constexpr bool skips_empty_space = has_parameter<Skip_empty_space_tag, Parameters>;
-  const auto position = get_parameter<Vertex_position_tag>(parameters, Vertex_position::PROJECTED);
-  const auto lattice = [&]() -> Lattice_3<Kernel_of<Traits>> {
-    if constexpr (LatticeImplicitFunctionTraits_3<Traits>) return traits.lattice();
-    else return sampling_lattice(traits, get_parameter<Number_of_nodes_tag>(parameters, default_number_of_nodes));
-  }();
-  return run.template operator()<skips_empty_space>(Lattice_function(traits, lattice), position);
-}
-
-/// The function marching_cubes() with all its named parameters in one chain, which may have others.
-template <class ConcurrencyTag, class Traits, class Parameters>
-Isosurface_3<Kernel_of<Traits>> marching_cubes_of(const Traits& traits, const Parameters& parameters) {
-  return with_marching_cubes_of(
-      traits, parameters, []<bool SkipsEmptySpace>(const auto& function, Vertex_position position) {
-        return isosurface_on_lattice<ConcurrencyTag, SkipsEmptySpace>(function, position).surface;
-      });
+template <class ConcurrencyTag, class Traits>
+Isosurface_3<Kernel_of<Traits>> isosurface_of(const Traits& traits, const Marching_cubes_options& options) {
+  return isosurface_on_lattice<ConcurrencyTag>(on_lattice(traits, options), options.vertices).surface;
 }
 
 } // namespace equiaffine::internal
@@ -311,7 +302,7 @@ namespace equiaffine {
 /// Meshes the zero set of a function by Marching Cubes (Lorensen, Cline 1987). The result is a triangle mesh with a
 /// vertex on every edge of a node grid at whose ends the function has different signs. A value of zero counts as
 /// positive. The grid is the lattice of a model of LatticeImplicitFunctionTraits_3, else
-/// `sampling_lattice(traits, number_of_nodes)`.
+/// `sampling_lattice(traits, options.resolution.nodes())`.
 ///
 /// The mesh is an oriented 2-manifold for every input, with boundary where the surface leaves the grid or meets a node
 /// without a value (NaN); parts that touch there have vertices of their own. Normals point along the gradient. The
@@ -327,23 +318,20 @@ namespace equiaffine {
 /// are not told from zeros. A vertex that could not be projected, as at a jump, stays at its linear position, is
 /// UNCONVERGED, and may be far from the surface.
 ///
-/// | named parameter | type | default | meaning |
-/// |---|---|---|---|
-/// | `number_of_nodes` | `std::size_t`, or an array of three | 64 | nodes along each axis, without a lattice |
-/// | `vertex_position` | Vertex_position | PROJECTED | where vertices are put |
-/// | `skip_empty_space` | no value | not given | asks for bounds, and evaluates near the zero set only |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+/// Empty space is skipped if the function is a model of BoundedImplicitFunctionTraits_3 and has built-in numbers: f is
+/// evaluated near its zero set only. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for
+/// bit. Takes one evaluation per node (if empty space is skipped, per node near the surface), and per vertex 4 more and 4
+/// to 6 with gradient. The memory in use is the output, one bit per node, and a buffer for some planes of nodes.
 ///
-/// Empty space can be skipped if the function is a model of BoundedImplicitFunctionTraits_3. Nothing is skipped without
-/// the parameter, since whether a function written as code accepts Interval cannot be asked without an error where it
-/// does not. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit. Takes one evaluation
-/// per node (if empty space is skipped, per node near the surface), and per vertex 4 more and 4 to 6 with gradient. The
-/// memory in use is the output, one bit per node, and a buffer for some planes of nodes.
+/// The named parameters `geom_traits` and `verbose` are accepted for compatibility with CGAL; ignored.
+/// \throw Input_error for bad options
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           internal::Parameter_chain... Parameters>
-Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const Parameters&... given) {
-  internal::check_marching_cubes_parameters<internal::Joined_parameters<Parameters...>>();
-  return internal::marching_cubes_of<ConcurrencyTag>(traits, internal::joined_parameters(given...));
+Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const Marching_cubes_options& options = {},
+                                               const Parameters&...) {
+  internal::check_parameters<internal::Joined_parameters<Parameters...>, internal::Geom_traits_tag,
+                             internal::Verbose_tag>();
+  return internal::isosurface_of<ConcurrencyTag>(traits, options);
 }
 
 /// The same for the level set f = isovalue, whose points and triangles are added to containers of the caller: see
@@ -351,10 +339,11 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const Param
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Points, class Triangles,
           internal::Parameter_chain... Parameters>
 Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const typename Traits::FT& isovalue,
-                                               Points& points, Triangles& triangles, const Parameters&... given) {
-  internal::check_marching_cubes_parameters<internal::Joined_parameters<Parameters...>>();
-  auto surface = internal::marching_cubes_of<ConcurrencyTag>(Level_set_traits_3<Traits>(traits, isovalue),
-                                                             internal::joined_parameters(given...));
+                                               Points& points, Triangles& triangles,
+                                               const Marching_cubes_options& options = {}, const Parameters&...) {
+  internal::check_parameters<internal::Joined_parameters<Parameters...>, internal::Geom_traits_tag,
+                             internal::Verbose_tag>();
+  auto surface = internal::isosurface_of<ConcurrencyTag>(Level_set_traits_3<Traits>(traits, isovalue), options);
   to_polygon_soup(surface, points, triangles);
   return internal::without_mesh(std::move(surface));
 }
@@ -368,20 +357,22 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const typen
 /// | `vertex_status_map` | writable property map | none | from vertices to Point_status |
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, Face_graph Graph,
           internal::Parameter_chain... Parameters>
-Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, Graph& graph, const Parameters&... given) {
+Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, Graph& graph,
+                                               const Marching_cubes_options& options = {}, const Parameters&... given) {
   using Joined = internal::Joined_parameters<Parameters...>;
-  internal::check_marching_cubes_parameters<Joined, internal::Vertex_point_tag, internal::Vertex_status_tag>();
-  const Joined parameters = internal::joined_parameters(given...);
-  auto surface = internal::marching_cubes_of<ConcurrencyTag>(traits, parameters);
-  internal::copy_to_graph(surface, graph, parameters);
+  internal::check_parameters<Joined, internal::Geom_traits_tag, internal::Verbose_tag, internal::Vertex_point_tag,
+                             internal::Vertex_status_tag>();
+  auto surface = internal::isosurface_of<ConcurrencyTag>(traits, options);
+  internal::copy_to_graph(surface, graph, internal::joined_parameters(given...));
   return internal::without_mesh(std::move(surface));
 }
 
 /// \cond
 // A call that is mistaken, see explain_sampler.h.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Traits, class... Others>
-void marching_cubes(const Traits&, const Others&...) requires Mistaken_for_sampler<void, Traits, Others...> {
-  explain_sampler<void, Traits, Others...>();
+void marching_cubes(const Traits&,
+                    const Others&...) requires Mistaken_for_sampler<Marching_cubes_options, Traits, Others...> {
+  explain_sampler<Marching_cubes_options, Traits, Others...>();
 }
 /// \endcond
 

@@ -4,9 +4,8 @@
 #define EQUIAFFINE_MARCHING_CUBES_MARCHING_CUBES_IN_SLABS_H
 
 #include <equiaffine/base/Input_error.h>
-#include <equiaffine/base/named_parameters.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/marching_cubes/Vertex_position.h>
+#include <equiaffine/marching_cubes/Marching_cubes_options.h>
 #include <equiaffine/marching_cubes/internal/lattice_function.h>
 #include <equiaffine/marching_cubes/marching_cubes.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
@@ -19,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <unordered_map>
@@ -31,8 +31,8 @@ namespace equiaffine {
 /// `end_plane` - 1, and in the cells above these, with the triangles of these cells. What a slab has follows in the
 /// whole mesh on what the slab before has.
 ///
-/// Where the mesh of a block of cells was asked for, `first_plane` and `end_plane` number layers of cells, the triangles
-/// are those that belong to them, and the vertices are those of these triangles that no slab before has.
+/// For the mesh of a block of cells `first_plane` and `end_plane` number layers of cells, the triangles are those that
+/// belong to them, and the vertices are those of these triangles that no slab before has.
 template <class Kernel>
 struct Isosurface_slab_3 {
   std::size_t first_plane;                      ///< the first plane of nodes, numbered along k
@@ -43,7 +43,7 @@ struct Isosurface_slab_3 {
   std::vector<Point_status> vertex_status;      ///< one per point, as in Isosurface_3
   /// The numbers in the whole mesh of three vertices each, which are of this slab, of the next one, or of earlier ones.
   std::vector<std::array<std::size_t, 3>> triangles;
-  /// One per point, where the mesh of a block of cells was asked for.
+  /// One per point, for the mesh of a block of cells.
   std::vector<Vertex_id> vertex_ids = {};
   /// The least id in the triangles of the whole mesh at each point, with vertex ids. Of the blocks that have a vertex, one has
   /// the cell of this id: to that block the vertex belongs.
@@ -57,7 +57,7 @@ struct Isosurface_totals {
   std::size_t function_evaluations = 0; ///< of f, with or without derivatives; more than one for nodes near seams
 };
 
-/// So many cells around a block of cells must be known for its part of a mesh.
+/// The number of cells around a block of cells that must be known for its part of a mesh.
 inline constexpr std::size_t cells_around_block = 4;
 
 } // namespace equiaffine
@@ -71,7 +71,7 @@ inline void check_block(const Cell_block& all, const Cell_block& block, const Ce
     check_argument(block.first[a] < block.end[a] && block.end[a] <= all.end[a],
                    "a block has no cells, or has some beyond the lattice: choose cells of the lattice");
     check_argument(known.first[a] <= needed.first[a] && needed.end[a] <= known.end[a] && known.end[a] <= all.end[a],
-                   "less cells of the lattice are known than the mesh of a block needs: let `cells_around_block` "
+                   "fewer cells of the lattice are known than the mesh of a block needs: let `cells_around_block` "
                    "around it be known");
   }
 }
@@ -79,7 +79,7 @@ inline void check_block(const Cell_block& all, const Cell_block& block, const Ce
 /// Makes the part of a surface that belongs to a block of cells, in slabs. To which cell a triangle belongs follows from
 /// the ids of its vertices, whatever it was repaired to, so that blocks need not know of each other. A slab is made with
 /// some cells more on all sides, as many as the repairs beside it look at.
-template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
+template <class ConcurrencyTag, class Traits>
 class Isosurface_of_block {
   using Kernel = Kernel_of<Traits>;
   using Point_3 = typename Traits::Point_3;
@@ -87,9 +87,10 @@ class Isosurface_of_block {
 
 public:
   /// The function may be evaluated in the cells that are `known`.
-  Isosurface_of_block(const Lattice_function<Traits>& function, Vertex_position position, std::size_t layers_per_slab,
-                      const Cell_block& block, const Cell_block& known)
-      : function_(function), position_(position), layers_per_slab_(layers_per_slab), block_(block), known_(known) {}
+  Isosurface_of_block(const Lattice_function<Traits>& function, const Slab_options& options, const Cell_block& block,
+                      const Cell_block& known)
+      : function_(function), position_(options.sampling.vertices), layers_per_slab_(options.planes_per_slab),
+        block_(block), known_(known) {}
 
   template <class Visit>
   Isosurface_totals run(const Visit& visit) {
@@ -112,7 +113,7 @@ private:
   Isosurface_slab_3<Kernel> slab(const Cell_block& layers) {
     for (std::size_t margin = cells_around_block;; margin *= 2) {
       const Cell_block cells = widened(layers, margin, known_);
-      const Part part = isosurface_on_lattice<ConcurrencyTag, SkipsEmptySpace, true>(
+      const Part part = isosurface_on_lattice<ConcurrencyTag, true>(
           function_.part(cells.first, {cells.end[0] + 1, cells.end[1] + 1, cells.end[2] + 1}), position_);
       totals_.function_evaluations += part.surface.function_evaluations;
       if (!part.is_undecided && agrees_with_slabs_before(part)) return taken_from(part, layers);
@@ -178,14 +179,14 @@ private:
 
 /// Makes a surface in slabs. Each one is made with some planes more on both sides, as many as the repairs beside its
 /// seams look at. What it has at the seam to the slab before must be, bit for bit, what that one had found there.
-template <class ConcurrencyTag, bool SkipsEmptySpace, class Traits>
+template <class ConcurrencyTag, class Traits>
 class Isosurface_in_slabs {
   using Kernel = Kernel_of<Traits>;
   using Point_3 = typename Traits::Point_3;
 
 public:
-  Isosurface_in_slabs(const Lattice_function<Traits>& function, Vertex_position position, std::size_t planes_per_slab)
-      : function_(function), position_(position), planes_per_slab_(planes_per_slab) {}
+  Isosurface_in_slabs(const Lattice_function<Traits>& function, const Slab_options& options)
+      : function_(function), position_(options.sampling.vertices), planes_per_slab_(options.planes_per_slab) {}
 
   template <class Visit>
   Isosurface_totals run(const Visit& visit) {
@@ -215,7 +216,7 @@ private:
     const std::size_t first_plane = first - std::min(first, margin);
     const auto& [nx, ny, nz] = function_.size();
     const std::size_t end_plane = std::min(end + margin, nz);
-    Part part{first_plane, isosurface_on_lattice<ConcurrencyTag, SkipsEmptySpace>(
+    Part part{first_plane, isosurface_on_lattice<ConcurrencyTag>(
                                function_.part({0, 0, first_plane}, {nx, ny, end_plane}), position_)};
     totals_.function_evaluations += part.layers.surface.function_evaluations;
     return part;
@@ -280,55 +281,38 @@ namespace equiaffine {
 ///       for (const auto& [a, b, c] : slab.triangles) file << a << ' ' << b << ' ' << c << '\n';
 ///     });
 ///
-/// | named parameter | type | default | meaning |
-/// |---|---|---|---|
-/// | `planes_per_slab` | `std::size_t` | 64 | planes of nodes that a slab has |
-/// | `cell_block` | Cell_block | none | asks for the mesh of these cells of the lattice only, with vertex ids |
-/// | `known_cells` | Cell_block | the lattice | where the function may be evaluated |
-/// | `number_of_nodes` | `std::size_t`, or an array of three | 64 | nodes along each axis, without a lattice |
-/// | `vertex_position` | Vertex_position | PROJECTED | where vertices are put |
-/// | `skip_empty_space` | no value | not given | asks for bounds, and evaluates near the zero set only |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
-///
-/// The meshes of blocks of cells, such as different machines make, are together the whole mesh: every triangle is in one
-/// of them, with the same points and ids, and vertices at the sides of blocks are in all that have triangles there. Known
-/// cells go `cells_around_block` beyond the block on every side, or to the end of the lattice. Where a closed part without
-/// area goes on beyond all known cells, blocks do not agree on whether to drop it: its triangles may be left in some.
-///
 /// Takes the memory of a slab with 8 planes more, and the time of marching_cubes() for as many planes. Where a closed
 /// part of the surface without area, such as a function that only touches zero has, goes on beyond these planes, the
 /// slab is made again with more of them.
-/// \throw std::invalid_argument unless a slab has a plane, a block has cells of the lattice, and enough cells around it
-/// are known
+/// \throw Input_error for bad options
 /// \throw std::runtime_error if the repairs beside a seam depend on what is far from it, which no function was seen to
 /// bring about
-template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Visit,
-          internal::Parameter_chain... Parameters>
-Isosurface_totals marching_cubes_in_slabs(const Traits& traits, const Visit& visit, const Parameters&... given) {
-  using Joined = internal::Joined_parameters<Parameters...>;
-  internal::check_marching_cubes_parameters<Joined, internal::Planes_per_slab_tag, internal::Cell_block_tag,
-                                            internal::Known_cells_tag>();
-  const Joined parameters = internal::joined_parameters(given...);
-  constexpr std::size_t default_planes = 64;
-  const std::size_t planes = internal::get_parameter<internal::Planes_per_slab_tag>(parameters, default_planes);
-  check_argument(planes > 0, "a slab has no planes: give one at least");
-  return internal::with_marching_cubes_of(
-      traits, parameters, [&]<bool SkipsEmptySpace>(const auto& function, Vertex_position position) {
-        if constexpr (internal::has_parameter<internal::Cell_block_tag, Joined>) {
-          const Cell_block all = cells_of(function.lattice().size());
-          const Cell_block block = internal::get_parameter<internal::Cell_block_tag>(parameters, all),
-                           known = internal::get_parameter<internal::Known_cells_tag>(parameters, all);
-          internal::check_block(all, block, known);
-          return internal::Isosurface_of_block<ConcurrencyTag, SkipsEmptySpace, Traits>(function, position, planes,
-                                                                                        block, known)
-              .run(visit);
-        } else {
-          static_assert(!internal::has_parameter<internal::Known_cells_tag, Joined>,
-                        "known_cells() needs cell_block()");
-          return internal::Isosurface_in_slabs<ConcurrencyTag, SkipsEmptySpace, Traits>(function, position, planes)
-              .run(visit);
-        }
-      });
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Visit>
+Isosurface_totals marching_cubes_in_slabs(const Traits& traits, const Visit& visit, const Slab_options& options = {}) {
+  options.check();
+  const auto function = internal::on_lattice(traits, options.sampling);
+  return internal::Isosurface_in_slabs<ConcurrencyTag, Traits>(function, options).run(visit);
+}
+
+/// Meshes the zero set of a function in a block of cells of its lattice, one slab after the other, with ids of vertices.
+/// The meshes of blocks, such as different machines make, are together the mesh of marching_cubes(): every triangle is in
+/// one of them, with the same points and ids, and vertices at the sides of blocks are in all that have triangles there.
+///
+/// The function is evaluated in the cells that are `known` only, by default in those of the lattice. They go
+/// `cells_around_block` beyond the block on every side, or to the end of the lattice. Where a closed part without area
+/// goes on beyond all known cells, blocks do not agree on whether to drop it: its triangles may be left in some.
+/// \throw Input_error for bad options
+/// \throw std::invalid_argument unless the block has cells of the lattice, and enough cells around it are known
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Visit>
+Isosurface_totals marching_cubes_of_block(const Traits& traits, const Cell_block& block, const Visit& visit,
+                                          const Slab_options& options = {},
+                                          const std::optional<Cell_block>& known = std::nullopt) {
+  options.check();
+  const auto function = internal::on_lattice(traits, options.sampling);
+  const Cell_block all = cells_of(function.lattice().size());
+  internal::check_block(all, block, known.value_or(all));
+  return internal::Isosurface_of_block<ConcurrencyTag, Traits>(function, options, block, known.value_or(all))
+      .run(visit);
 }
 
 } // namespace equiaffine

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <exception>
 #include <limits>
 #include <numbers>
 #include <type_traits>
@@ -17,6 +19,12 @@
 #endif
 
 namespace equiaffine {
+
+/// Thrown by a comparison of intervals whose answer depends on the numbers in them. Who asked for bounds has to do without.
+struct Undecided_comparison : std::exception {
+  /// The message of the exception.
+  const char* what() const noexcept override { return "a comparison of intervals is undecided"; }
+};
 
 /// A closed interval of reals [lower, upper] with outward rounded arithmetic: the result of a function of intervals
 /// contains its values at all points of them (Moore, Kearfott, Cloud: Introduction to Interval Analysis, 2009).
@@ -92,6 +100,21 @@ public:
   friend bool operator==(const Interval& a, const Interval& b) {
     return a.lower() == b.lower() && a.upper() == b.upper();
   }
+
+  /// @{
+  /// Code with branches works for intervals on which the branches do not meet: a comparison has the answer that it has
+  /// for every pair of numbers. \throw Undecided_comparison if it is not the same for all
+  friend bool operator<(const Interval& a, const Interval& b) {
+    if (a.upper() < b.lower()) return true;
+    if (a.lower() >= b.upper()) return false;
+    throw Undecided_comparison();
+  }
+  friend bool operator>(const Interval& a, const Interval& b) { return b < a; }
+  friend bool operator<=(const Interval& a, const Interval& b) { return !(b < a); }
+  friend bool operator>=(const Interval& a, const Interval& b) { return !(a < b); }
+
+  friend Interval select(bool condition, const Interval& yes, const Interval& no) { return condition ? yes : no; }
+  /// @}
 
   /// The squares of the numbers of an interval.
   friend Interval square(const Interval& a) {
@@ -267,6 +290,12 @@ inline Interval pow(const Interval& a, const Interval& b) {
   return a.lower() < 0 && b.lower() <= n ? Interval::whole() : exp(b * log(a));
 }
 
+/// The same for an exponent that would lose its fraction as an argument of the integer power.
+template <std::floating_point Number>
+Interval pow(const Interval& a, Number b) {
+  return pow(a, Interval(b));
+}
+
 namespace internal {
 
 /// Bounds of a sine wave f, whose maxima lie at maximum + 2 pi n.
@@ -352,6 +381,8 @@ inline Interval hypot(const Interval& x, const Interval& y) {
       Interval::widened(std::hypot(p.lower(), q.lower()), std::hypot(p.upper(), q.upper()), function_error_ulps);
   return Interval(std::max(r.lower(), 0.0), r.upper());
 }
+
+inline Interval hypot(const Interval& x, const Interval& y, const Interval& z) { return hypot(hypot(x, y), z); }
 /// @}
 
 /// @{
@@ -385,5 +416,14 @@ inline Interval jump_of_remainder(const Interval& a, const Interval& b, const In
 }
 
 } // namespace equiaffine
+
+/// The limits of an interval are those of doubles, which convert to intervals.
+/// \cond doxygen knows no members of std
+template <>
+class std::numeric_limits<equiaffine::Interval> : public std::numeric_limits<double> {
+public:
+  static constexpr bool is_iec559 = false; ///< an interval is no number of the processor
+};
+/// \endcond
 
 #endif

@@ -5,11 +5,11 @@
 
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
-#include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
 #include <equiaffine/mesh/internal/indexed_polygons.h>
-#include <equiaffine/registration/Map_kind.h>
+#include <equiaffine/registration/Registration_options.h>
+#include <equiaffine/registration/internal/Surface_to_register.h>
 #include <equiaffine/registration/internal/searches.h>
 #include <equiaffine/registration/slippage_of_mesh.h>
 
@@ -19,6 +19,7 @@
 #include <CGAL/tags.h>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <ranges>
 #include <string>
@@ -50,8 +51,8 @@ struct Symmetry_level_3 {
 enum class Symmetry_verdict {
   /// The first level, or else the continuous group, holds to rounding at every point that was tried.
   EXACT,
-  /// The first level, or else the continuous group, holds to within its rms: 1 % of the size at most, for affine maps in
-  /// coordinates in which the solid is round.
+  /// The first level, or else the continuous group, holds to within its rms: 1 % of the size at most, for affine maps
+  /// in coordinates in which the solid is round.
   APPROXIMATE,
   /// No map but the identity holds to within 1 % of the size, as above, or to the tolerance for a function.
   NONE,
@@ -82,6 +83,11 @@ struct Affine_symmetries_3 {
   /// If the surface goes on beyond the box of its function: the number of `maps` that move its piece in the box onto
   /// itself. Others, if any, were verified where the images of points are in the box.
   std::optional<std::size_t> order_in_box = {};
+  /// What may find more if nothing is decided, or only the identity was found, the most promising first.
+  std::vector<Registration_advice> advice = {};
+
+  /// Whether it is not known how many symmetries there are.
+  bool is_undecided() const { return !is_decided && continuous.dimension() == 0; }
 
   /// The number of symmetries, the identity and reflections counted. None if there are infinitely many, or if it is not
   /// known. A mesh that turns to within the error of its facets, and has a finite group to rounding, has the order of
@@ -96,31 +102,34 @@ struct Affine_symmetries_3 {
 
 namespace equiaffine::internal {
 
-/// The default tolerance of symmetries of a function, a part of its size.
-constexpr double default_tolerance = 1e-8;
-
-/// The named parameters of affine_symmetries() of a function.
-struct Symmetry_request : Map_request {
-  bool is_complete = false; ///< whether all rotations are searched where frames have decided, too
-};
-
-template <class Parameters>
-Symmetry_request symmetry_request(const Parameters& parameters) {
-  return {map_request(parameters), get_parameter<Complete_tag>(parameters, false)};
-}
-
 // The library defines these functions. They run in the threads of TBB if `in_threads`.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 
 /// The symmetries of the zero set of a function, by affine frames at the points, and by rotations of the whole.
-Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(bool in_threads, const Surface_with_points_3& surface,
-                                                               const Symmetry_request& request);
+Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(bool in_threads, const Surface_to_register& surface,
+                                                               const Symmetry_options& options);
 
-/// The symmetries of a mesh, by rotations of the whole.
+/// The symmetries of a mesh, by rotations of the whole; the rigid ones if affine ones cannot be found.
 Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles(bool in_threads, const Triangles_3& mesh,
-                                                                const Map_request& request);
+                                                                const Symmetry_options& options);
+
+/// The result of affine_symmetries(), and the level set that was made, if it was.
+struct Symmetries_of_surface {
+  Affine_symmetries_3<Kernel_of_searches> result = {};
+  std::optional<Surface_to_register> level_set = {};
+};
+
+/// The symmetries of a mesh. Where they are undecided, or the mesh has no triangles, those of the level set that
+/// `make_level_set` returns: by its triangles if it is a fit to points without faces.
+Symmetries_of_surface symmetries_of_surface(bool in_threads, const Mesh_of_searches& mesh, Surface_origin origin,
+                                            const std::function<Surface_to_register()>& make_level_set,
+                                            const Symmetry_options& options);
+
+/// The same for data, to which the level set is fitted.
+Affine_symmetries_3<Kernel_of_searches> symmetries_of_data(bool in_threads, const Surface_data_3& data,
+                                                           const Symmetry_options& options);
 
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility pop
@@ -147,6 +156,7 @@ Affine_symmetries_3<Kernel> in_kernel(Affine_symmetries_3<Kernel_of_searches> fo
   result.complete_to = found.complete_to;
   result.spacing = found.spacing;
   result.order_in_box = found.order_in_box;
+  result.advice = std::move(found.advice);
   return result;
 }
 
@@ -164,80 +174,74 @@ namespace equiaffine {
 /// which the solid inside is round, with points by random lines (Crofton). Maps are refined by least squares.
 ///
 /// What is stated is a group, and EXACT means that the images of some 30,000 points by each of its maps are on the
-/// surface to rounding; `spacing` says how far these points are apart. A surface that leaves the box of the function has
-/// the symmetries that keep its piece in the box, and others if they are a group, which were verified where images are
-/// in the box; see `order_in_box`.
+/// surface to rounding; `spacing` says how far these points are apart. A surface that leaves the box of the function
+/// has the symmetries that keep its piece in the box, and others if they are a group, which were verified where images
+/// are in the box; see `order_in_box`.
 ///
-/// The order counts the maps that are exact, and those to within `tolerance`, a part of the size, if it is given or none
-/// is exact; it is 1e-8 then by default. A larger tolerance never finds fewer. Where the surface has continuous
-/// symmetries of the kind, the result has their generators, and no others are sought: an ellipsoid has infinitely many
-/// affine symmetries, but 8 rigid ones if its axes differ.
+/// The order counts the maps that are exact, and those to within `tolerance`, a part of the size, if it is given or
+/// none is exact. A larger tolerance never finds fewer. Where the surface has continuous symmetries of the kind, the
+/// result has their generators, and no others are sought: an ellipsoid has infinitely many affine symmetries, but 8
+/// rigid ones if its axes differ. `fit` of the options does not matter.
 ///
 /// Takes some 0.5 s for a smooth formula, else 1 to 10 s on one core. The result is the same for CGAL::Sequential_tag
 /// and CGAL::Parallel_tag.
-///
-/// | named parameter | type | default | meaning |
-/// |---|---|---|---|
-/// | `map_kind` | Map_kind | AFFINE | the kind of maps that are sought |
-/// | `reflections` | `bool` | `true` | whether maps may have a negative determinant |
-/// | `tolerance` | `double` | see above | rms distance by which maps may move points off, a part of the size |
-/// | `complete` | `bool` | `false` | whether all rotations are searched where frames decide, too |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
-///
-/// \throw std::invalid_argument if there are no points, or a parameter makes no sense.
-template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, std::ranges::input_range Points,
-          internal::Parameter_chain... Parameters>
+/// \throw Input_error if an option makes no sense. \throw std::invalid_argument if there are no points.
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, std::ranges::input_range Points>
 Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, const Points& points,
-                                                         const Parameters&... given) {
-  internal::check_map_parameters<internal::Joined_parameters<Parameters...>, internal::Complete_tag>();
-  const auto parameters = internal::joined_parameters(given...);
-  return internal::in_kernel<Kernel_of<Traits>>(internal::symmetries_of_function(
-      runs_in_threads<ConcurrencyTag>(), {Any_function_3::make(traits), internal::vectors_of(points)},
-      internal::symmetry_request(parameters)));
+                                                         const Symmetry_options& options = {}) {
+  options.check();
+  const auto surface = [&] { return internal::surface_of_function(traits, points); };
+  return internal::in_kernel<Kernel_of<Traits>>(internal::symmetries_of_surface(runs_in_threads<ConcurrencyTag>(), {},
+                                                                                internal::origin_of<Traits>, surface,
+                                                                                options)
+                                                    .result);
 }
 
-/// The same for the triangles of a mesh; other faces are cut into triangles. Two corners, at which the angles of the faces
-/// do not add up to that of a plane, determine a map together with their images, so that up to 1000 exact symmetries are
+/// The same for a mesh, a model of CGAL's FaceGraph, or for a range of points without faces: the symmetries are those
+/// of `equiaffine symmetries`, bit for bit.
+///
+/// A mesh is its triangles; other faces are cut into triangles. Two corners, at which the angles of the faces do not
+/// add up to that of a plane, determine a map together with their images, so that up to 1000 exact symmetries are
 /// found; others come from all rotations. Each map is verified at each vertex and facet, or at millions of points of a
-/// very large mesh. EXACT means to the rounding of the coordinates, as they were written; a mesh that also turns about an
-/// axis to within the distance between its facets and a smooth surface has `continuous` with an `rms`. Without
-/// a `tolerance` the order is that of the first level within 1 % of the size, less for thin surfaces. Small holes are
-/// closed for the moments by which affine maps are found; if a mesh bounds no solid, its rigid symmetries are the result,
-/// see `kind`.
+/// very large mesh. EXACT means to the rounding of the coordinates, as they were written; a mesh that also turns about
+/// an axis to within the distance between its facets and a smooth surface has `continuous` with an `rms`. Without a
+/// `tolerance` the order is that of the first level within 1 % of the size, less for thin surfaces. Small holes are
+/// closed for the moments by which affine maps are found; if a mesh bounds no solid, its rigid symmetries are the
+/// result, see `kind`. If these are undecided and affine ones are sought, affine frames of a fit to the vertices
+/// (Fitted_function_traits_3) are tried, to within 1e-3 without a `tolerance`. Points without faces become a mesh by
+/// Marching Cubes on a fit to them.
+///
+/// Takes 1 to 10 s on one core for the triangles of a mesh, and 1 to 3 ms per point more for a fit.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
-/// | `map_kind` | Map_kind | AFFINE | the kind of maps that are sought |
-/// | `reflections` | `bool` | `true` | whether maps may have a negative determinant |
-/// | `tolerance` | `double` | none | rms distance by which maps may move points off, a part of the size |
-/// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
+/// | `vertex_point_map` | property map | the mesh's own | from vertices of a mesh to points |
+/// | `point_map` | property map | the elements | from elements of a range to points |
+/// | `normal_map` | property map | estimated | from elements of a range to normals |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
-/// \throw std::invalid_argument if a coordinate is not finite, the mesh has no area, or a parameter makes no sense.
-template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>
-auto affine_symmetries(const Graph& mesh, const Parameters&... given) {
-  internal::check_map_parameters<internal::Joined_parameters<Parameters...>, internal::Vertex_point_tag>();
-  const auto parameters = internal::joined_parameters(given...);
-  using Point = Point_of_vertices<const Graph, internal::Joined_parameters<Parameters...>>;
-  using Kernel_of_points = typename CGAL::Kernel_traits<Point>::Kernel;
-  const internal::Triangles_3 triangles = internal::triangles_of_graph(mesh, parameters);
-  return internal::in_kernel<Kernel_of_points>(internal::symmetries_of_triangles(
-      runs_in_threads<ConcurrencyTag>(), triangles, internal::map_request(parameters)));
+/// \throw Input_error if an option makes no sense. \throw std::invalid_argument if a coordinate is not finite, a mesh has
+/// no faces or no area, or a range no points.
+template <class ConcurrencyTag = CGAL::Sequential_tag, internal::Mesh_or_points Data,
+          internal::Parameter_chain... Parameters>
+auto affine_symmetries(const Data& data, const Symmetry_options& options = {}, const Parameters&... given) {
+  internal::check_data_parameters<Data, Parameters...>();
+  options.check();
+  return internal::in_kernel<internal::Kernel_of_data<Data, Parameters...>>(internal::symmetries_of_data(
+      runs_in_threads<ConcurrencyTag>(), internal::surface_data(data, internal::joined_parameters(given...)), options));
 }
 
-/// The same for points with polygons between them, each a range of positions of points. Equal points count once. There
-/// is no `vertex_point_map`.
+/// The same for points with polygons between them, each a range of positions of points. Equal points count once.
 /// \throw std::invalid_argument also if a polygon has the position of no point.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
-          std::ranges::input_range Polygons, internal::Parameter_chain... Parameters>
+          std::ranges::input_range Polygons>
 auto affine_symmetries(const Points& points, const Polygons& polygons,
-                       const Parameters&... given) requires(!ImplicitFunctionTraits_3<Points> && !Face_graph<Points>) {
-  internal::check_map_parameters<internal::Joined_parameters<Parameters...>>();
-  const auto parameters = internal::joined_parameters(given...);
+                       const Symmetry_options& options = {}) requires(!ImplicitFunctionTraits_3<Points> &&
+                                                                      !Face_graph<Points>) {
   using Kernel_of_points = typename CGAL::Kernel_traits<std::ranges::range_value_t<Points>>::Kernel;
-  const internal::Triangles_3 triangles = internal::triangles_of_soup(points, polygons);
-  return internal::in_kernel<Kernel_of_points>(internal::symmetries_of_triangles(
-      runs_in_threads<ConcurrencyTag>(), triangles, internal::map_request(parameters)));
+  options.check();
+  return internal::in_kernel<Kernel_of_points>(internal::symmetries_of_data(
+      runs_in_threads<ConcurrencyTag>(), internal::surface_data_of_soup(points, polygons), options));
 }
 
 } // namespace equiaffine

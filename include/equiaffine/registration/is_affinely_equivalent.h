@@ -4,11 +4,10 @@
 #define EQUIAFFINE_REGISTRATION_IS_AFFINELY_EQUIVALENT_H
 
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/base/named_parameters.h>
 #include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/registration/Map_kind.h>
-#include <equiaffine/registration/internal/searches.h>
+#include <equiaffine/registration/Registration_options.h>
+#include <equiaffine/registration/internal/Surface_to_register.h>
 #include <equiaffine/registration/register_surfaces.h>
 
 #include <CGAL/Uncertain.h>
@@ -42,31 +41,21 @@ namespace equiaffine {
 /// The answer is true if register_surfaces() finds such a map, and false if the map that it finds moves a part only, or
 /// if all rotations of the whole surfaces were tried, in coordinates in which their solids are round, and none moves
 /// one near the other. Else it is indeterminate, as for surfaces that leave their boxes and have no map with evidence:
-/// the conversion to bool throws CGAL::Uncertain_conversion_exception then. The named parameters are those of
-/// register_surfaces() without `number_of_maps`:
-///
-/// | named parameter | type | default | meaning |
-/// |---|---|---|---|
-/// | `map_kind` | Map_kind | AFFINE | the kind of maps that are sought |
-/// | `reflections` | `bool` | `true` | whether maps may have a negative determinant |
-/// | `least_overlap` | `double` | 0.05 | part of the points of one surface that lies on the other |
-/// | `tolerance` | `double` | as there | distance of equal surfaces, a part of the size of the target |
-/// | `refined_functions` | `std::pair` | source and target | functions on which maps are refined and judged |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+/// the conversion to bool throws CGAL::Uncertain_conversion_exception then. The options are those of
+/// register_surfaces(); `fit` does not matter.
+/// \throw Input_error if an option makes no sense. \throw std::invalid_argument if a surface has no points.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Source, std::ranges::input_range Points,
-          ImplicitFunctionTraits_3 Target, std::ranges::input_range Target_points,
-          internal::Parameter_chain... Parameters>
+          ImplicitFunctionTraits_3 Target, std::ranges::input_range Target_points>
 CGAL::Uncertain<bool> is_affinely_equivalent(const Source& source, const Points& source_points, const Target& target,
-                                             const Target_points& target_points, const Parameters&... given) {
-  internal::check_map_parameters<internal::Joined_parameters<Parameters...>, internal::Least_overlap_tag,
-                                 internal::Refined_functions_tag>();
-  const auto parameters = internal::joined_parameters(given...);
-  const auto registration =
-      internal::registration_of<ConcurrencyTag>(source, source_points, target, target_points, parameters);
+                                             const Target_points& target_points,
+                                             const Registration_options& options = {}) {
+  options.check();
+  constexpr bool in_threads = runs_in_threads<ConcurrencyTag>();
+  const auto from = internal::surface_of_function(source, source_points),
+             to = internal::surface_of_function(target, target_points);
+  const auto registration = internal::registration_of_functions(in_threads, from, to, options);
   if (registration.is_equivalence || registration.result.found()) return registration.is_equivalence;
-  const auto request = internal::registration_request(parameters);
-  if (internal::differ_as_wholes(runs_in_threads<ConcurrencyTag>(), Any_function_3::make(source),
-                                 Any_function_3::make(target), request.kind, request.allows_reflections))
+  if (internal::differ_as_wholes(in_threads, from.function, to.function, options.kind, options.reflections))
     return false;
   return CGAL::Uncertain<bool>::indeterminate();
 }

@@ -3,14 +3,13 @@
 #ifndef EQUIAFFINE_REGISTRATION_REGISTER_SURFACES_H
 #define EQUIAFFINE_REGISTRATION_REGISTER_SURFACES_H
 
-#include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/function/Any_function_3.h>
 #include <equiaffine/function/concepts.h>
-#include <equiaffine/mesh/internal/Face_graph.h>
 #include <equiaffine/mesh/internal/indexed_polygons.h>
-#include <equiaffine/registration/Map_kind.h>
+#include <equiaffine/registration/Registration_options.h>
+#include <equiaffine/registration/internal/Surface_to_register.h>
 #include <equiaffine/registration/internal/searches.h>
 #include <equiaffine/registration/slippage_of_mesh.h>
 
@@ -18,7 +17,6 @@
 #include <CGAL/Kernel_traits.h>
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/tags.h>
-#include <Eigen/Core>
 
 #include <array>
 #include <cstddef>
@@ -65,6 +63,15 @@ struct Surface_registration_3 {
   /// continuous family.
   Affine_slippage_3 slippage;
   std::string reason = {}; ///< why the maps between meshes that were tried are not accepted, if that is known
+  /// The scales of fits to the source and to the target that were tried one after the other, the last ones with
+  /// success.
+  std::vector<std::array<double, 2>> scales = {};
+  bool is_by_triangles = false; ///< whether triangles gave `maps`, without their curvature
+  /// How many maps with evidence are not among `maps`, since too small a part of the surfaces agrees, or the sizes of
+  /// the surfaces have another ratio than the scales of their fits, or since a large part of a closed mesh is off the
+  /// other.
+  std::size_t maps_left_out = 0;
+  std::vector<Registration_advice> advice = {}; ///< what may find a map if there is none, the most promising first
 
   bool found() const { return !maps.empty(); }                          ///< whether there is a map
   const Registered_map_3<Kernel>& best() const { return maps.front(); } ///< \pre found()
@@ -74,86 +81,10 @@ struct Surface_registration_3 {
 
 namespace equiaffine::internal {
 
-/// How many pairs are made, and of what points: of the `neighbors` nearest in invariants, the `best` of each point.
-struct Candidate_limits {
-  std::size_t neighbors, best;
-  double greatest_mismatch; ///< of gradients, whose mismatch is 1 at most
-};
-
-/// The thresholds of the search for maps by affine frames. `benchmark_registration 84 thresholds` shows what most of them
-/// are good for, with one of them halved or doubled at a time.
-struct Frame_thresholds {
-  // The points of the source with the greatest weights are tried first: certainty * min(quality, greatest_quality) *
-  // (least_rarity + rarity) * exp(-loss_by_disagreement * disagreement) / (1 + loss_by_condition * condition) * slope.
-  double greatest_quality = 0.15;
-  double least_rarity = 0.05;
-  double loss_by_disagreement = 3;
-  double loss_by_condition = 0.002;
-
-  // A pair costs mismatch + cost_of_rest * rest + cost_of_step * step. The step, in spacings, leads along the target to
-  // where the invariants agree best, and the rest is how much they still differ there.
-  double cost_of_rest = 0.3;
-  double cost_of_step = 0.1;
-  double longest_step = 3; ///< in spacings
-  Candidate_limits usual = {24, 3, 0.6};
-  Candidate_limits wrong_structure = {48, 8, 0.9}; ///< where no map was found by the usual ones
-
-  // A counterpart costs residual / accidental_residual + mismatch / accidental_mismatch.
-  double accidental_residual = 0.1;
-  double accidental_mismatch = 0.3;
-  double longest_way = 6; ///< from the candidate, in spacings
-
-  // The order and the end of the search.
-  std::size_t most_points_to_try = 512, points_per_batch = 32, pairs_at_once = 8, most_hypotheses = 2000;
-  /// So many hypotheses more are tried after a map that moves only a part of the source to within the noise: the surface
-  /// may be nearly symmetric, and another map fit better.
-  std::size_t more_hypotheses = 60;
-
-  // A hypothesis has to reach these logarithms of the chance that it is an accident.
-  std::size_t probes_at_first = 150; ///< by which a hypothesis is judged before it is refined
-  double greatest_first_tolerance = 0.03;
-  double first_log10 = -1.5;  ///< hypotheses that are no better are not refined
-  double second_log10 = -4;   ///< those that are no better after a few steps are given up
-  double accepted_log10 = -6; ///< a map that is better is no accident
-
-  /// The tolerance of surfaces without noise is that of splines through samples. Smooth surfaces that have nothing in
-  /// common can be moved onto each other to within 1e-2 of their size, and large parts of them to within 1e-3 or less.
-  double exact_tolerance = 1e-5, greatest_tolerance = 3e-3, rounding = 1e-8;
-};
-
-/// The named parameters of register_surfaces, and thresholds that benchmarks vary. The tolerance is beside the size of
-/// the target.
-struct Registration_request : Map_request {
-  std::size_t number_of_maps = 1;
-  double least_overlap = 0.05;
-  Frame_thresholds thresholds = {};
-};
-
-template <class Parameters, class... OtherTags>
-constexpr void check_registration_parameters() {
-  check_map_parameters<Parameters, Number_of_maps_tag, Least_overlap_tag, OtherTags...>();
-}
-
-template <class Parameters>
-Registration_request registration_request(const Parameters& parameters) {
-  Registration_request request = {map_request(parameters)};
-  request.number_of_maps = get_parameter<Number_of_maps_tag>(parameters, request.number_of_maps);
-  request.least_overlap = get_parameter<Least_overlap_tag>(parameters, request.least_overlap);
-  check_argument(request.number_of_maps > 0, "the number of maps to find is at least 1");
-  check_argument(request.least_overlap >= 0 && request.least_overlap <= 1,
-                 "the least overlap is a part of a surface, from 0 to 1");
-  return request;
-}
-
 // The library defines these functions. They run in the threads of TBB if `in_threads`.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
-
-/// A surface as register_surfaces() is given it, with a function with the same zero set on which maps are refined.
-struct Refined_surface_3 : Surface_with_points_3 {
-  Any_function_3 refined;
-};
 
 /// The result of register_surfaces(), and whether the best map moves all of each surface onto the other.
 struct Registration_of_functions_3 {
@@ -161,15 +92,31 @@ struct Registration_of_functions_3 {
   bool is_equivalence = false;
 };
 
-/// Whole surfaces of exact functions whose frames give no map are tried without frames.
-Registration_of_functions_3 registration_of_functions(bool in_threads, const Refined_surface_3& source,
-                                                      const Refined_surface_3& target,
-                                                      const Registration_request& request);
+/// Compares surfaces as they are. Whole surfaces of exact functions whose frames give no map are tried without frames.
+Registration_of_functions_3 registration_of_functions(bool in_threads, const Surface_to_register& source,
+                                                      const Surface_to_register& target,
+                                                      const Registration_options& options);
 
-/// Meshes are tried as wholes, and then as pieces.
+/// Meshes are tried as wholes, and then as pieces, without curvature.
 Surface_registration_3<Kernel_of_searches> registration_of_triangles(bool in_threads, const Triangles_3& source,
                                                                      const Triangles_3& target,
-                                                                     const Registration_request& request);
+                                                                     const Registration_options& options);
+
+/// The result of register_surfaces(), and the surfaces as they were compared last, at the scales that were tried.
+struct Registration_of_surfaces {
+  Surface_to_register source, target;
+  Surface_registration_3<Kernel_of_searches> result = {};
+};
+
+/// Frames of curvature are compared first, at one scale after the other where the data choose the scale, then
+/// triangles.
+Registration_of_surfaces registration_of_surfaces(bool in_threads, Surface_to_register source,
+                                                  Surface_to_register target, const Registration_options& options);
+
+/// The same for surfaces that are fitted to data.
+Surface_registration_3<Kernel_of_searches> registration_of_data(bool in_threads, const Surface_data_3& source,
+                                                                const Surface_data_3& target,
+                                                                const Registration_options& options);
 
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility pop
@@ -206,21 +153,11 @@ Surface_registration_3<Kernel> in_kernel(Surface_registration_3<Kernel_of_search
   result.next_best_rms = found.next_best_rms;
   result.slippage = std::move(found.slippage);
   result.reason = std::move(found.reason);
+  result.scales = std::move(found.scales);
+  result.is_by_triangles = found.is_by_triangles;
+  result.maps_left_out = found.maps_left_out;
+  result.advice = std::move(found.advice);
   return result;
-}
-
-template <class ConcurrencyTag, class Source, class Points, class Target, class Target_points, class Parameters>
-Registration_of_functions_3 registration_of(const Source& source, const Points& source_points, const Target& target,
-                                            const Target_points& target_points, const Parameters& parameters) {
-  const auto function = Any_function_3::make(source), target_function = Any_function_3::make(target);
-  Refined_surface_3 from = {{function, vectors_of(source_points)}, function};
-  Refined_surface_3 to = {{target_function, vectors_of(target_points)}, target_function};
-  if constexpr (has_parameter<Refined_functions_tag, Parameters>) {
-    const auto& [refined_source, refined_target] = given_parameter<Refined_functions_tag>(parameters);
-    from.refined = Any_function_3::make(refined_source);
-    to.refined = Any_function_3::make(refined_target);
-  }
-  return registration_of_functions(runs_in_threads<ConcurrencyTag>(), from, to, registration_request(parameters));
 }
 
 } // namespace equiaffine::internal
@@ -236,112 +173,92 @@ namespace equiaffine {
 /// the points of the target, by a tree, then exactly, by Newton's steps on the target. A map is judged by the distances
 /// of points both ways, refined by least squares, and accepted if fewer than 1e-6 as good ones are expected by chance:
 /// neither an overlap nor the absence of other things is assumed. Points lie on the other surface if they are within
-/// the noise, which is that of the given points: `tolerance` is 8 times their median distance from the zero sets, at
+/// the noise, which is that of the given points: the tolerance is 8 times their median distance from the zero sets, at
 /// least 1e-5 of the size of the target, and at most 3e-3 of it, since large parts of unrelated surfaces can be moved
 /// onto each other to within more. Where the frame of a point is not determined, as the affine one on quadrics, it is
 /// not matched: surfaces with continuous symmetries have a slippage, see Surface_registration_3. A fit
 /// (Fitted_function_traits_3) estimates its errors: points where its curvatures are uncertain are tried later. Whole
-/// surfaces of other functions without such frames, as boxes, are matched as meshes are.
+/// surfaces of other functions without such frames, as boxes, are matched as meshes are. `fit` of the options does not
+/// matter.
 ///
 /// Takes 5 expansions for each of up to 6000 points of a surface, and a number of hypotheses that does not depend on
 /// the number of points. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.
-///
-/// | named parameter | type | default | meaning |
-/// |---|---|---|---|
-/// | `map_kind` | Map_kind | AFFINE | the kind of maps that are sought |
-/// | `reflections` | `bool` | `true` | whether maps may have a negative determinant |
-/// | `number_of_maps` | `std::size_t` | 1 | the greatest number of maps; with more than 1 the search goes on |
-/// | `least_overlap` | `double` | 0.05 | part of the points of one surface that lies on the other |
-/// | `tolerance` | `double` | see above | distance of equal surfaces, a part of the size of the target |
-/// | `refined_functions` | `std::pair` | source and target | functions on which maps are refined and judged |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
-///
-/// `refined_functions` are unsmoothed ones where those by which points are matched are smoothed, since smoothing does
-/// not commute with affine maps.
-/// \throw std::invalid_argument if a surface has no points, or a parameter makes no sense.
+/// \throw Input_error if an option makes no sense. \throw std::invalid_argument if a surface has no points.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Source, std::ranges::input_range Points,
-          ImplicitFunctionTraits_3 Target, std::ranges::input_range Target_points,
-          internal::Parameter_chain... Parameters>
+          ImplicitFunctionTraits_3 Target, std::ranges::input_range Target_points>
 Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source, const Points& source_points,
                                                             const Target& target, const Target_points& target_points,
-                                                            const Parameters&... given) {
-  internal::check_registration_parameters<internal::Joined_parameters<Parameters...>,
-                                          internal::Refined_functions_tag>();
-  const auto parameters = internal::joined_parameters(given...);
+                                                            const Registration_options& options = {}) {
+  options.check();
   return internal::in_kernel<Kernel_of<Target>>(
-      internal::registration_of<ConcurrencyTag>(source, source_points, target, target_points, parameters).result);
+      internal::registration_of_surfaces(runs_in_threads<ConcurrencyTag>(),
+                                         internal::surface_of_function(source, source_points),
+                                         internal::surface_of_function(target, target_points), options)
+          .result);
 }
 
-/// The same for the triangles of two meshes, without any curvature: boxes and other CAD parts have none to go by.
+/// The same for two meshes, models of CGAL's FaceGraph, or ranges of points without faces, or one of each: the map is
+/// that of `equiaffine register`, bit for bit.
 ///
-/// If the whole surfaces are equal, the map keeps the centroid of the area, and an affine one the moments of the solid
-/// inside, so that all rotations and reflections about the centroid are searched by branch and bound. Else pieces are
-/// matched by similarities: two points with their normals give a frame, pairs of points with about the same distance
-/// and angles are tried, and a map is accepted if the points in contact leave it no freedom, at most 2 % of the points
-/// of one surface lie off the other although that does not end there (`contradictions`), and fewer than 1e-6 as good
-/// maps are expected by chance. The `tolerance` is the rms distance of surfaces that are equal, a part of the size; by
-/// default it is what facets explain, 0.3 % to 1 %, and 2e-5 for solids of planes, which have no other facets. Without
-/// one, two scans of an object that are not equal, such as a fine and a coarse one, are matched if one map stands out:
-/// its rms is below 1.5 % of the size, less for thin surfaces, and less than half of that of every other map, and less
-/// than 10 % of the points are off the other surface.
+/// Curvatures are compared first, as above, those of fits to the vertices (Fitted_function_traits_3). Where the data do
+/// not resolve the surface, curvatures are those at a scale, and can be compared at the same scale only: without
+/// `fit.scale`, and unless both surfaces have a map by curvatures of their own, scales of 10, 14, 7 and 20 times the
+/// mean distance of the points are tried, up to half of the diagonal, the same length for both and, if the distances
+/// differ by a fifth, each surface's own. A map at a scale is accepted if six separate parts of the size of the scale
+/// agree and if it changes lengths about as the scales differ. Maps between closed meshes by which 10 % of one of them
+/// are off the other are left out. `scales` and `maps_left_out` of the result tell of it.
 ///
-/// Takes some 5 to 40 s on one core if the wholes are not equal. The last argument has `vertex_point_map` and
-/// `geom_traits` for the target; parameters::joined() makes one argument of several. The one before it has
+/// Two meshes without such a map are compared by their triangles, without any curvature (`is_by_triangles`): boxes and
+/// other CAD parts have none to go by. If the whole surfaces are equal, the map keeps the centroid of the area, and an
+/// affine one the moments of the solid inside, so that all rotations and reflections about the centroid are searched by
+/// branch and bound. Else pieces are matched by similarities: two points with their normals give a frame, pairs of
+/// points with about the same distance and angles are tried, and a map is accepted if the points in contact leave it no
+/// freedom, at most 2 % of the points of one surface lie off the other although that does not end there
+/// (`contradictions`), and fewer than 1e-6 as good maps are expected by chance. The `tolerance` is the rms distance of
+/// surfaces that are equal, a part of the size; by default it is what facets explain, 0.3 % to 1 %, and 2e-5 for solids
+/// of planes, which have no other facets. Without one, two scans of an object that are not equal, such as a fine and a
+/// coarse one, are matched if one map stands out: its rms is below 1.5 % of the size, less for thin surfaces, and less
+/// than half of that of every other map, and less than 10 % of the points are off the other surface.
+///
+/// Takes 1 to 3 ms per vertex for a fit, up to 9 fits of each surface if there is no map, and then 5 to 40 s on one
+/// core for triangles whose wholes are not equal. Named parameters are in a chain for the source and a second one for
+/// the target; parameters::joined() makes one chain of several:
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
-/// | `map_kind` | Map_kind | AFFINE | the kind of maps that are sought |
-/// | `reflections` | `bool` | `true` | whether maps may have a negative determinant |
-/// | `number_of_maps` | `std::size_t` | 1 | the greatest number of maps; with more than 1 the search goes on |
-/// | `least_overlap` | `double` | 0.05 | part of the points of one surface that lies on the other |
-/// | `tolerance` | `double` | see above | rms distance of equal surfaces, a part of the size |
-/// | `vertex_point_map` | property map | the mesh's own | from vertices of the source to points |
+/// | `vertex_point_map` | property map | the mesh's own | from vertices of a mesh to points |
+/// | `point_map` | property map | the elements | from elements of a range to points |
+/// | `normal_map` | property map | estimated | from elements of a range to normals |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
-/// \throw std::invalid_argument if a coordinate is not finite, a mesh has no faces, or a parameter makes no sense.
-template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Source, Face_graph Target,
+/// \throw Input_error if an option makes no sense. \throw std::invalid_argument if a coordinate is not finite, a mesh has
+/// no faces, or a range no points.
+template <class ConcurrencyTag = CGAL::Sequential_tag, internal::Mesh_or_points Source, internal::Mesh_or_points Target,
           internal::Parameter_chain Parameters = internal::No_parameters,
           internal::Parameter_chain Target_parameters = internal::No_parameters>
-auto register_surfaces(const Source& source, const Target& target, const Parameters& given = {},
-                       const Target_parameters& given_of_target = {}) {
-  internal::check_registration_parameters<internal::Joined_parameters<Parameters>, internal::Vertex_point_tag>();
-  internal::check_parameters<internal::Joined_parameters<Target_parameters>, internal::Vertex_point_tag,
-                             internal::Geom_traits_tag>();
-  const auto parameters = internal::joined_parameters(given);
-  const auto target_parameters = internal::joined_parameters(given_of_target);
-  using Point = Point_of_vertices<const Target, internal::Joined_parameters<Target_parameters>>;
-  using Kernel_of_points = typename CGAL::Kernel_traits<Point>::Kernel;
-  return internal::in_kernel<Kernel_of_points>(internal::registration_of_triangles(
-      runs_in_threads<ConcurrencyTag>(), internal::triangles_of_graph(source, parameters),
-      internal::triangles_of_graph(target, target_parameters), internal::registration_request(parameters)));
+auto register_surfaces(const Source& source, const Target& target, const Registration_options& options = {},
+                       const Parameters& given = {}, const Target_parameters& given_of_target = {}) {
+  internal::check_data_parameters<Source, Parameters>();
+  internal::check_data_parameters<Target, Target_parameters>();
+  options.check();
+  return internal::in_kernel<internal::Kernel_of_data<Target, Target_parameters>>(internal::registration_of_data(
+      runs_in_threads<ConcurrencyTag>(), internal::surface_data(source, internal::joined_parameters(given)),
+      internal::surface_data(target, internal::joined_parameters(given_of_target)), options));
 }
 
 /// The same for points with polygons between them, each a range of positions of points. Equal points count once.
 /// \throw std::invalid_argument also if a polygon has the position of no point.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
           std::ranges::input_range Polygons, std::ranges::input_range Target_points,
-          std::ranges::input_range Target_polygons, internal::Parameter_chain... Parameters>
+          std::ranges::input_range Target_polygons>
 auto register_surfaces(const Points& points, const Polygons& polygons, const Target_points& target_points,
-                       const Target_polygons& target_polygons, const Parameters&... given) {
-  internal::check_registration_parameters<internal::Joined_parameters<Parameters...>>();
-  const auto parameters = internal::joined_parameters(given...);
+                       const Target_polygons& target_polygons, const Registration_options& options = {}) {
   using Kernel_of_points = typename CGAL::Kernel_traits<std::ranges::range_value_t<Target_points>>::Kernel;
-  return internal::in_kernel<Kernel_of_points>(internal::registration_of_triangles(
-      runs_in_threads<ConcurrencyTag>(), internal::triangles_of_soup(points, polygons),
-      internal::triangles_of_soup(target_points, target_polygons), internal::registration_request(parameters)));
+  options.check();
+  return internal::in_kernel<Kernel_of_points>(internal::registration_of_data(
+      runs_in_threads<ConcurrencyTag>(), internal::surface_data_of_soup(points, polygons),
+      internal::surface_data_of_soup(target_points, target_polygons), options));
 }
-
-/// \cond
-// A call that is mistaken, see base/named_parameters.h.
-template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Source, Face_graph Target, class... Others>
-void register_surfaces(const Source&, const Target&,
-                       const Others&...) requires(!(internal::Parameter_chain<Others> && ...) ||
-                                                  sizeof...(Others) > 2) {
-  internal::explain_parameters<Others...>();
-  static_assert(sizeof...(Others) <= 2, "there is one chain of named parameters for the source and one for the target: "
-                                        "parameters::joined() makes one of several");
-}
-/// \endcond
 
 } // namespace equiaffine
 

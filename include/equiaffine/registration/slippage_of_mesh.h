@@ -4,7 +4,7 @@
 #define EQUIAFFINE_REGISTRATION_SLIPPAGE_OF_MESH_H
 
 #include <equiaffine/mesh/internal/indexed_polygons.h>
-#include <equiaffine/registration/Map_kind.h>
+#include <equiaffine/registration/Registration_options.h>
 
 #include <Eigen/Core>
 

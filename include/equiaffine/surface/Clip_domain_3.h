@@ -14,6 +14,15 @@
 #include <optional>
 #include <utility>
 
+namespace equiaffine::internal {
+
+/// The default of the greatest radius of facets in a box.
+inline double default_facet_radius(const CGAL::Bbox_3& box) {
+  return std::hypot(box.x_span(), box.y_span(), box.z_span()) / 50;
+}
+
+} // namespace equiaffine::internal
+
 namespace equiaffine {
 
 /// A closed box or ball, in which a surface is sought and at whose border it is cut off.

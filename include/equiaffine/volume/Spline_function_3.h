@@ -9,8 +9,9 @@
 #include <equiaffine/number/internal/Linear_substitution_3.h>
 #include <equiaffine/volume/Cell_block.h>
 #include <equiaffine/volume/Lattice_3.h>
-#include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/Volume_options.h>
 #include <equiaffine/volume/Volume_survey.h>
 #include <equiaffine/volume/internal/Spline_coefficients.h>
 #include <equiaffine/volume/internal/bspline_bounds.h>
@@ -184,20 +185,21 @@ public:
   static constexpr double shortest_step = 1e-70,
                           longest_step = 1e70; ///< see shortest_step
 
-  /// The coefficients do not depend on the number of threads that compute them. \throw std::invalid_argument unless the
-  /// degree is 5, 7 or 9, the smoothing is finite and not negative, and steps of the lattice are no shorter or longer
-  /// than they may be
+  /// Without a smoothing in the options decide_smoothing() finds it. The coefficients do not depend on the number of
+  /// threads that compute them. \throw Input_error for bad options, and std::invalid_argument unless steps of the lattice
+  /// are no shorter or longer than they may be
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  explicit Spline_function_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters = {},
+  explicit Spline_function_3(const Volume_view_3<Kernel>& volume, const Volume_options& options = {},
                              ConcurrencyTag tag = {})
-      : Spline_function_3(volume, parameters, internal::border_votes(volume, parameters, volume.cells()), tag) {}
+      : Spline_function_3(volume, internal::with_smoothing<ConcurrencyTag>(volume, options),
+                          internal::border_votes(volume, options, volume.cells()), tag) {}
 
   /// The same for samples that are smoothed already, and the survey of the volume, of which they may be a part.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
-  Spline_function_3(const Volume_view_3<Kernel>& smooth, const Spline_parameters& parameters,
-                    const Volume_survey& survey, ConcurrencyTag tag = {})
-      : Spline_function_3(smooth, {.degree = parameters.degree, .scheme = parameters.scheme}, survey.border_votes,
-                          tag) {}
+  Spline_function_3(const Volume_view_3<Kernel>& smooth, const Volume_options& options, const Volume_survey& survey,
+                    ConcurrencyTag tag = {})
+      : Spline_function_3(smooth, {.spline_scheme = options.spline_scheme, .spline_degree = options.spline_degree},
+                          survey.border_votes, tag) {}
 
   const Lattice& lattice() const { return support_.lattice(); } ///< where the samples are
   int degree() const { return fit_.degree; }                    ///< 5, 7 or 9
@@ -290,10 +292,10 @@ public:
 
 private:
   template <class ConcurrencyTag>
-  Spline_function_3(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters, const Border_votes& votes,
+  Spline_function_3(const Volume_view_3<Kernel>& volume, const Volume_options& options, const Border_votes& votes,
                     ConcurrencyTag tag)
-      : fit_{internal::checked_degree(parameters.degree), parameters.scheme,
-             internal::elected_border_degree(votes, parameters.degree)},
+      : fit_{options.spline_degree, options.spline_scheme,
+             internal::elected_border_degree(votes, options.spline_degree)},
         support_(volume.lattice()), substitution_(support_.to_lattice()) {
     for (const auto& step : lattice().steps())
       check_argument(shortest_step * shortest_step <= step.squared_length() &&
@@ -302,7 +304,7 @@ private:
     for (const std::size_t nodes : lattice().size())
       if (nodes <= std::size_t(degree())) return;
     source_ = std::make_shared<const internal::Coefficient_source<Kernel>>(
-        smooth_volume<ConcurrencyTag>(volume, FT(parameters.smoothing), votes), fit_, tag);
+        smooth_volume<ConcurrencyTag>(volume, FT(*options.smoothing), votes), fit_, tag);
     if (scheme() == Spline_scheme::INTERPOLATION) source_->all(); // no part of them can be computed alone
   }
 
@@ -354,35 +356,38 @@ private:
 
 /// The kernel is that of the volume.
 template <class Kernel>
-Spline_function_3(const Volume_3<Kernel>&, const Spline_parameters& = {}) -> Spline_function_3<Kernel>;
+Spline_function_3(const Volume_3<Kernel>&, const Volume_options& = {}) -> Spline_function_3<Kernel>;
 
 /// The kernel is that of the volume.
 template <class Kernel, class ConcurrencyTag>
-Spline_function_3(const Volume_3<Kernel>&, const Spline_parameters&, ConcurrencyTag) -> Spline_function_3<Kernel>;
+Spline_function_3(const Volume_3<Kernel>&, const Volume_options&, ConcurrencyTag) -> Spline_function_3<Kernel>;
 
 /// The cells at whose nodes samples must be known so that a spline through them has its values in all cells of a block.
 /// `nodes` are the numbers of nodes of the lattice. Beside the border of the lattice these are more than elsewhere, since
-/// there the samples are extended. \throw std::invalid_argument unless the degree is 5, 7 or 9, and for interpolation,
-/// which needs all samples
+/// there the samples are extended. Without a smoothing the greatest one that may be chosen counts. \throw Input_error for
+/// bad options, and for interpolation, which needs all samples
 inline Cell_block cells_to_know(const Cell_block& cells, const std::array<std::size_t, 3>& nodes,
-                                const Spline_parameters& parameters) {
-  check_argument(parameters.scheme != Spline_scheme::INTERPOLATION,
-                 "spline interpolation needs all samples of a volume: choose quasi-interpolation");
-  const internal::Spline_fit fit = {internal::checked_degree(parameters.degree), parameters.scheme,
-                                    internal::greater_border_degree(parameters.degree)};
+                                const Volume_options& options) {
+  options.check();
+  if (options.spline_scheme == Spline_scheme::INTERPOLATION)
+    throw Input_error::about("spline_scheme",
+                             "interpolation needs all samples of a volume; choose quasi-interpolation");
+  const std::size_t degree = std::size_t(options.spline_degree);
+  const double smoothing = options.smoothing.value_or(greatest_scale_to_choose);
+  const internal::Spline_fit fit = {options.spline_degree, options.spline_scheme,
+                                    internal::greater_border_degree(options.spline_degree)};
   Cell_block known = cells;
   fit.with_filter<double>([&](const auto& line) {
     if constexpr (requires { line.samples_of({}, 0); })
       for (std::size_t a = 0; a < 3; ++a) {
-        if (nodes[a] <= std::size_t(parameters.degree)) continue; // there is no spline
-        internal::Line_part used =
-            line.samples_of({cells.first[a], cells.end[a] + std::size_t(parameters.degree)}, nodes[a]);
+        if (nodes[a] <= degree) continue; // there is no spline
+        internal::Line_part used = line.samples_of({cells.first[a], cells.end[a] + degree}, nodes[a]);
         // The votes on the border degree look at so many samples at an end of a line.
         const auto voting = std::min(nodes[a], std::size_t(fit.border_degree) + 2);
         if (cells.first[a] == 0) used.end = std::max(used.end, voting);
         if (cells.end[a] + 1 == nodes[a]) used.first = std::min(used.first, nodes[a] - voting);
-        if (parameters.smoothing > 1)
-          used = internal::Smoothing_filter<double>(parameters.smoothing, nodes[a], fit.border_degree).samples_of(used);
+        if (smoothing > 1)
+          used = internal::Smoothing_filter<double>(smoothing, nodes[a], fit.border_degree).samples_of(used);
         known.first[a] = std::min(known.first[a], used.first);
         known.end[a] = std::max(known.end[a], used.end - 1);
       }

@@ -7,8 +7,8 @@
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/volume/Cell_block.h>
-#include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/Volume_options.h>
 #include <equiaffine/volume/internal/bspline.h>
 
 #include <algorithm>
@@ -95,30 +95,23 @@ void add_vote(std::span<const FT> f, int lesser, int greater, Border_votes& vote
   else ++votes.lesser;
 }
 
-/// The degree of a spline. \throw std::invalid_argument unless it is 5, 7 or 9
-inline int checked_degree(int degree) {
-  check_argument(degree == 5 || degree == 7 || degree == 9,
-                 "the degree of a spline is not 5, 7 or 9: choose one of these");
-  return degree;
-}
-
 /// The greater degree that the polynomials may have that extend a volume beyond the border for a spline of degree n.
 inline int greater_border_degree(int degree) { return std::min(degree + 2, greatest_border_degree); }
 
 /// The votes of the ends of lines that belong to a block of cells, where all samples that a vote looks at are known.
-/// \pre the samples of the block are known. Time: proportional to the number of samples
+/// \throw Input_error for bad options \pre the samples of the block are known. Time: proportional to the number of samples
 /// in the n + 4 layers at the border.
 template <class Kernel>
-Border_votes border_votes(const Volume_view_3<Kernel>& volume, const Spline_parameters& spline,
-                          const Cell_block& cells) {
+Border_votes border_votes(const Volume_view_3<Kernel>& volume, const Volume_options& options, const Cell_block& cells) {
   using FT = typename Kernel::FT;
-  const int greater = greater_border_degree(checked_degree(spline.degree));
+  options.check();
+  const int degree = options.spline_degree, greater = greater_border_degree(degree);
   Border_votes votes;
-  if (spline.scheme != Spline_scheme::QUASI_INTERPOLATION) return votes;
+  if (options.spline_scheme != Spline_scheme::QUASI_INTERPOLATION) return votes;
   const std::array<std::size_t, 3>& size = volume.lattice().size();
   std::array<FT, std::size_t(greatest_border_degree) + 2> samples;
   for (std::size_t a = 0; a < 3; ++a) {
-    if (size[a] < std::size_t(spline.degree) + 2) continue;
+    if (size[a] < std::size_t(degree) + 2) continue;
     const std::span f = std::span(samples).first(std::min(size[a], std::size_t(greater) + 2));
     const std::size_t b = a == 0 ? 1 : 0, c = a == 2 ? 1 : 2; // in the order of the memory where i is fastest
     const Line_part of_a = own_nodes_of(cells, a, size[a]), of_b = own_nodes_of(cells, b, size[b]),
@@ -131,12 +124,12 @@ Border_votes border_votes(const Volume_view_3<Kernel>& volume, const Spline_para
         if (has_first) {
           node[a] = 0;
           volume.copy_line(node, a, f);
-          add_vote<FT>(f, spline.degree, greater, votes);
+          add_vote<FT>(f, degree, greater, votes);
         }
         if (has_last) {
           node[a] = size[a] - 1;
           volume.copy_line_backwards(node, a, f);
-          add_vote<FT>(f, spline.degree, greater, votes);
+          add_vote<FT>(f, degree, greater, votes);
         }
       }
   }
@@ -157,7 +150,7 @@ template <class Kernel>
 int border_degree(const Volume_parts_3<Kernel>& volume, int degree, Spline_scheme scheme) {
   Border_votes votes;
   for (const auto& [part, cells] : volume.parts)
-    votes.add(border_votes(part, {.degree = degree, .scheme = scheme}, cells));
+    votes.add(border_votes(part, {.spline_scheme = scheme, .spline_degree = degree}, cells));
   const std::vector<double> gathered =
       volume.gather({double(votes.constant), double(votes.lesser), double(votes.greater)});
   Border_votes of_all;
@@ -169,7 +162,7 @@ int border_degree(const Volume_parts_3<Kernel>& volume, int degree, Spline_schem
 /// The survey of the samples that belong to a block of cells, before they are smoothed. The spline has that degree and
 /// scheme. \throw std::invalid_argument unless samples are known in all of these cells
 template <class ConcurrencyTag, class Kernel>
-Volume_survey volume_survey(const Volume_view_3<Kernel>& volume, const Spline_parameters& parameters,
+Volume_survey volume_survey(const Volume_view_3<Kernel>& volume, const Volume_options& options,
                             const Cell_block& cells) {
   using FT = typename Kernel::FT;
   check_argument(
@@ -196,7 +189,7 @@ Volume_survey volume_survey(const Volume_view_3<Kernel>& volume, const Spline_pa
   });
   Volume_survey survey;
   for (const Volume_survey& of_some : of_planes) survey.add(of_some);
-  survey.border_votes = border_votes(volume, parameters, cells);
+  survey.border_votes = border_votes(volume, options, cells);
   return survey;
 }
 

@@ -6,8 +6,8 @@
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/large_pages.h>
 #include <equiaffine/volume/Cell_block.h>
-#include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/Volume_options.h>
 #include <equiaffine/volume/Volume_survey.h>
 #include <equiaffine/volume/internal/separable_filter.h>
 
@@ -216,9 +216,9 @@ template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_3<Kernel> smooth_volume(Volume_3<Kernel> volume, const typename Kernel::FT& scale) {
   const auto view = Volume_view_3<Kernel>::of(volume);
   if (!internal::smooths(scale)) return volume;
-  const Spline_parameters spline;
+  const Volume_options options;
   const int border_degree =
-      internal::elected_border_degree(internal::border_votes(view, spline, view.cells()), spline.degree);
+      internal::elected_border_degree(internal::border_votes(view, options, view.cells()), options.spline_degree);
   volume.values = internal::smoothed_samples<ConcurrencyTag>(view, scale, border_degree);
   return volume;
 }
@@ -230,7 +230,7 @@ template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale,
                                     const Border_votes& votes) {
   if (!internal::smooths(scale)) return volume;
-  const int border_degree = internal::elected_border_degree(votes, Spline_parameters().degree);
+  const int border_degree = internal::elected_border_degree(votes, Volume_options().spline_degree);
   if (volume.is_part()) return internal::smoothed_part<ConcurrencyTag>(volume, scale, border_degree);
   return Volume_3<Kernel>{volume.lattice(), internal::smoothed_samples<ConcurrencyTag>(volume, scale, border_degree)};
 }
@@ -239,8 +239,7 @@ Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const t
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale) {
   if (!internal::smooths(scale)) return volume;
-  return smooth_volume<ConcurrencyTag>(volume, scale,
-                                       internal::border_votes(volume, Spline_parameters(), volume.cells()));
+  return smooth_volume<ConcurrencyTag>(volume, scale, internal::border_votes(volume, Volume_options(), volume.cells()));
 }
 
 } // namespace equiaffine

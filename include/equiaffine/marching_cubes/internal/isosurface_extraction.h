@@ -4,7 +4,7 @@
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_EXTRACTION_H
 
 #include <equiaffine/base/internal/parallel_for.h>
-#include <equiaffine/marching_cubes/Vertex_position.h>
+#include <equiaffine/marching_cubes/Marching_cubes_options.h>
 #include <equiaffine/marching_cubes/internal/isosurface_numbering.h>
 #include <equiaffine/marching_cubes/internal/isosurface_plan.h>
 #include <equiaffine/marching_cubes/internal/marching_cubes_cases.h>

@@ -11,32 +11,36 @@
 
 namespace equiaffine {
 
-/// Whether the arguments of a sampler that follow the function are options: named parameters, or of the type `Criteria`.
-template <class Criteria, class... Arguments>
-inline constexpr bool are_options = ((internal::Parameter_chain<Arguments> || std::same_as<Arguments, Criteria>)&&...);
+/// Whether arguments are options and then named parameters, or nothing.
+template <class Options, class... Arguments>
+inline constexpr bool are_options = true;
+template <class Options, class First, class... Parameters>
+inline constexpr bool are_options<Options, First, Parameters...> = std::same_as<First, Options> &&
+                                                                   (internal::Parameter_chain<Parameters> && ...);
 
-/// Whether they are options, or a mesh, or an isovalue with two containers, and options.
-template <class Criteria, class... Arguments>
+/// Whether the arguments of a sampler that follow the function are options, or a mesh, or an isovalue with two
+/// containers, and options.
+template <class Options, class... Arguments>
 inline constexpr bool are_for_sampler = true;
-template <class Criteria, class First, class... Options>
-inline constexpr bool are_for_sampler<Criteria, First, Options...> = are_options<Criteria, Options...> &&
-                                                                     (are_options<Criteria, First> ||
-                                                                      Face_graph<First>);
-template <class Criteria, class First, std::ranges::range Points, std::ranges::range Triangles, class... Options>
-inline constexpr bool are_for_sampler<Criteria, First, Points, Triangles, Options...> =
-    are_options<Criteria, Options...> && !are_options<Criteria, First>;
+template <class Options, class First, class... Others>
+inline constexpr bool are_for_sampler<Options, First, Others...> = are_options<Options, First, Others...> ||
+                                                                   (Face_graph<First> &&
+                                                                    are_options<Options, Others...>);
+template <class Options, class First, std::ranges::range Points, std::ranges::range Triangles, class... Others>
+inline constexpr bool are_for_sampler<Options, First, Points, Triangles, Others...> =
+    !std::same_as<First, Options> && are_options<Options, Others...>;
 
 /// A call of a sampler that is mistaken.
-template <class Criteria, class Traits, class... Arguments>
-concept Mistaken_for_sampler = !(ImplicitFunctionTraits_3<Traits> && are_for_sampler<Criteria, Arguments...>);
+template <class Options, class Traits, class... Arguments>
+concept Mistaken_for_sampler = !(ImplicitFunctionTraits_3<Traits> && are_for_sampler<Options, Arguments...>);
 
 /// Does not compile for such a call.
-template <class Criteria, class Traits, class... Arguments>
+template <class Options, class Traits, class... Arguments>
 constexpr void explain_sampler() {
   internal::explain_traits<Traits>();
-  static_assert(are_for_sampler<Criteria, Arguments...>,
+  static_assert(are_for_sampler<Options, Arguments...>,
                 "what follows the function has to be a mesh of CGAL, or an isovalue with a container of points and one "
-                "of triangles, or nothing, and then named parameters such as parameters::number_of_nodes(64)");
+                "of triangles, or nothing; then options, such as {.resolution = 64} or {}; then named parameters");
 }
 
 } // namespace equiaffine

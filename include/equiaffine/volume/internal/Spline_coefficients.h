@@ -7,8 +7,8 @@
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/number/Jet_3.h>
 #include <equiaffine/volume/Cell_block.h>
-#include <equiaffine/volume/Spline_parameters.h>
 #include <equiaffine/volume/Volume_3.h>
+#include <equiaffine/volume/Volume_options.h>
 #include <equiaffine/volume/internal/bspline.h>
 #include <equiaffine/volume/internal/bspline_evaluation.h>
 #include <equiaffine/volume/internal/separable_filter.h>

@@ -4,7 +4,7 @@
 #define EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_H
 
 #include <equiaffine/volume/Cell_block.h>
-#include <equiaffine/volume/Spline_parameters.h>
+#include <equiaffine/volume/Volume_options.h>
 
 #include <algorithm>
 #include <array>

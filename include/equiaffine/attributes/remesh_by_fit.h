@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fits a triangle mesh, remeshes it, and moves its vertices onto the fit, at a scale that suits its shape.
+#ifndef EQUIAFFINE_ATTRIBUTES_REMESH_BY_FIT_H
+#define EQUIAFFINE_ATTRIBUTES_REMESH_BY_FIT_H
+
+#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/base/Input_error.h>
+#include <equiaffine/base/internal/index_sets.h>
+#include <equiaffine/base/internal/parallel_for.h>
+#include <equiaffine/base/named_parameters.h>
+#include <equiaffine/fit/Fit_options.h>
+#include <equiaffine/fit/Fit_outcome.h>
+#include <equiaffine/fit/Fitted_function_traits_3.h>
+#include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/fit/move_to_fit.h>
+#include <equiaffine/fit/remesh_on_fit.h>
+#include <equiaffine/mesh/internal/Face_graph.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
+
+#include <CGAL/Bbox_3.h>
+#include <CGAL/Kernel_traits.h>
+#include <CGAL/tags.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace equiaffine {
+
+/// The result of remesh_by_fit().
+template <class Kernel>
+struct Remesh_by_fit {
+  Fitted_function_traits_3<Kernel> fit; ///< the fit, with values up to a 25th of the size of the mesh over the surface
+  Fit_remesh_report report;             ///< what became of the vertices
+};
+
+} // namespace equiaffine
+
+namespace equiaffine::internal {
+
+/// The kernel of the points of the vertices.
+template <class Mesh, class Parameters>
+using Kernel_of_vertices = typename CGAL::Kernel_traits<Point_of_vertices<Mesh, Parameters>>::Kernel;
+
+/// When a remesh tries smaller scales of a fit, and when it takes them.
+struct Remesh_thresholds {
+  static constexpr double enough = 0.05;       ///< a part of the vertices that may be beside the fit
+  static constexpr double least_gain = 1. / 3; ///< the part of these vertices that must get onto the fit
+  static constexpr double greatest_loss = 0.1; ///< the part of the data at which a number may become unknown
+  static constexpr double known = 0.5;         ///< the greatest error of a number that is known, as a part of its size
+  static constexpr std::size_t most_data = 1000; ///< at which numbers are computed
+  static constexpr int most_tries = 4;
+};
+
+/// The part of the vertices of a remesh that are neither on the fit nor on creases.
+inline double part_beside_fit(const Whole_motion_3& motion) {
+  std::size_t kept = 0;
+  for (std::size_t v = 0; v < motion.points().size(); ++v)
+    kept += motion.outcome(v) == Fit_outcome::ON_FIT || motion.outcome(v) == Fit_outcome::ON_FEATURE;
+  return 1 - double(kept) / double(motion.points().size());
+}
+
+/// The parts of some of the data at which a fit knows the affine area density, of order 2, and the affine Gaussian
+/// curvature, of order 4.
+template <class Kernel>
+std::array<double, 2> parts_known(const Fitted_function_traits_3<Kernel>& fit,
+                                  const std::vector<typename Kernel::Point_3>& data) {
+  const std::vector<std::size_t> some = random_subset(data.size(), Remesh_thresholds::most_data, 1);
+  std::array<double, 2> parts = {};
+  for (const std::size_t i : some) {
+    const auto fitted = fit.structure(data[i]);
+    for (const auto& row : error_table<double>) {
+      if (!row.is_known(fitted.structure, fitted.error, Remesh_thresholds::known)) continue;
+      parts[0] += double(row.attribute == "affine_area_density") / double(some.size());
+      parts[1] += double(row.attribute == "affine_gaussian_curvature") / double(some.size());
+    }
+  }
+  return parts;
+}
+
+/// Moves a remesh to a fit. If the data choose its scale, and many vertices would be beside the fit, that scale is too large
+/// for the shape: smaller ones are tried while they leave fewer vertices beside the fit and numbers known at about as
+/// many data. `fit` becomes the fit at such a scale if it leaves a third fewer. `refit(options)` makes a fit, or throws
+/// Input_error.
+template <class ConcurrencyTag, class Kernel, class Refit>
+Whole_motion_3 motion_to_best_fit(Whole_remesh_3<Kernel>& remesh, Fitted_function_traits_3<Kernel>& fit,
+                                  Fit_options options, const std::vector<typename Kernel::Point_3>& data,
+                                  const Refit& refit) {
+  using Thresholds = Remesh_thresholds;
+  const auto motion_to = [&](const Fitted_function_traits_3<Kernel>& to) {
+    return motion_to_fit<ConcurrencyTag>(remesh.array(), to, remesh.crossings(), remesh.features());
+  };
+  std::optional<Whole_motion_3> best = motion_to(fit);
+  double last_part = part_beside_fit(*best), least_part = last_part;
+  const bool may_change = !options.scale && fit.scale() && remesh.edge_length() > 0;
+  if (!may_change || last_part < Thresholds::enough) return *std::move(best);
+  options.scale = fit.scale();
+  const auto known = parts_known(fit, data);
+  for (int n = 0; n < Thresholds::most_tries && least_part >= Thresholds::enough; ++n) {
+    try {
+      *options.scale /= std::numbers::sqrt2;
+      const Fitted_function_traits_3<Kernel> smaller = refit(options);
+      const auto still_known = parts_known(smaller, data);
+      if (std::max(known[0] - still_known[0], known[1] - still_known[1]) > Thresholds::greatest_loss) break;
+      Whole_motion_3 motion = motion_to(smaller);
+      const double part = part_beside_fit(motion);
+      if (part >= last_part) break;
+      last_part = part;
+      if (part > (1 - Thresholds::least_gain) * least_part) continue;
+      least_part = part;
+      fit = smaller;
+      best.emplace(std::move(motion));
+    } catch (const Input_error&) {
+      break; // too few points are within that scale
+    }
+  }
+  return *std::move(best);
+}
+
+/// Replaces a mesh by its remesh on a fit, or on a better one.
+template <class ConcurrencyTag, class Mesh, class Kernel, class Refit, class Parameters>
+Fit_remesh_report remesh_on_best_fit(Mesh& mesh, Fitted_function_traits_3<Kernel>& fit, const Fit_options& fit_options,
+                                     const std::vector<typename Kernel::Point_3>& data, const Refit& refit,
+                                     const Remesh_options& options, const Parameters& parameters) {
+  options.check();
+  Whole_remesh_3<Kernel> remesh(copy_to_remesh<Kernel>(mesh, parameters), options, ConcurrencyTag());
+  const Whole_motion_3 motion = motion_to_best_fit<ConcurrencyTag>(remesh, fit, fit_options, data, refit);
+  return replace_by_moved<ConcurrencyTag>(mesh, remesh, motion, parameters);
+}
+
+/// The height over the data up to which a remesh needs the values of a fit: a 25th of the diagonal of their box, which
+/// is widened by a tenth of its longest side, or by more than any coordinate if all points are equal.
+template <class Point>
+double height_of_remesh(const std::vector<Point>& data) {
+  CGAL::Bbox_3 box;
+  for (const Point& p : data) box += p.bbox();
+  const double longest = std::max({box.x_span(), box.y_span(), box.z_span()});
+  const double farthest = std::max({std::abs(box.xmax()), std::abs(box.ymax()), std::abs(box.zmax())});
+  const double margin = longest > 0 ? longest / 10 : 1 + farthest;
+  const CGAL::Bbox_3 wide(box.xmin() - margin, box.ymin() - margin, box.zmin() - margin, box.xmax() + margin,
+                          box.ymax() + margin, box.zmax() + margin);
+  return 2 * (std::hypot(wide.x_span(), wide.y_span(), wide.z_span()) / 50);
+}
+
+} // namespace equiaffine::internal
+
+namespace equiaffine {
+
+/// Fits polynomials to the vertices of a triangle mesh, as Fitted_function_traits_3 does, and remeshes the mesh on the
+/// fit by remesh_on_fit(). It returns the fit, too. That is what the program makes of `equiaffine mesh --fit FILE`.
+///
+/// If the data choose the scale, it may be too large for parts of the shape: then more than 5 % of the vertices are
+/// beside the fit. Up to four scales, each smaller by the square root of 2, are tried while they leave fewer vertices
+/// beside the fit, and while the affine area density and the affine Gaussian curvature stay known to 50 % at about as
+/// many of the data, with a loss of 10 % of them at most. The fit at a smaller scale is taken if it leaves a third fewer
+/// vertices beside it.
+///
+/// The fit has creases by the feature angle of `fit_options`, and the remesh keeps edges by that of `remesh_options`:
+/// usually both are the same.
+///
+/// | named parameter | type | default | meaning |
+/// |---|---|---|---|
+/// | `edge_is_constrained_map` | writable property map | none | from edges to bool: those that are kept |
+/// | `vertex_point_map` | writable property map | the mesh's own | from vertices to points |
+/// | `vertex_normal_map` | property map | made of the faces | from vertices to normals, which the fit reads |
+/// | `vertex_outcome_map` | writable property map | none | from vertices of the result to Fit_outcome |
+/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// Takes the time of remesh_on_fit(), and of up to five fits. CGAL::Parallel_tag gives the same numbers.
+/// \throw Input_error and std::invalid_argument as fitted_structures() and remesh_on_fit() do. The mesh is as it was then.
+template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, internal::Parameter_chain... Parameters>
+Remesh_by_fit<internal::Kernel_of_vertices<Mesh, internal::Joined_parameters<Parameters...>>>
+remesh_by_fit(Mesh& mesh, const Fit_options& fit_options = {}, const Remesh_options& remesh_options = {},
+              const Parameters&... given) {
+  using Joined = internal::Joined_parameters<Parameters...>;
+  internal::check_remesh_parameters<Joined, internal::Vertex_normal_tag>();
+  using Kernel_of_mesh = internal::Kernel_of_vertices<Mesh, Joined>;
+  const Joined parameters = internal::joined_parameters(given...);
+  const internal::Fit_data_3 data = internal::fit_data_of_graph(mesh, parameters);
+  std::vector<typename Kernel_of_mesh::Point_3> points;
+  for (const auto& p : data.points) points.emplace_back(p[0], p[1], p[2]);
+  const double height = internal::height_of_remesh(points);
+  const auto fit_with = [&](const Fit_options& options) {
+    return Fitted_function_traits_3<Kernel_of_mesh>(
+               internal::fitted_function(runs_in_threads<ConcurrencyTag>(), data, options))
+        .in_band(height);
+  };
+  Remesh_by_fit<Kernel_of_mesh> result = {fit_with(fit_options), {}};
+  result.report = internal::remesh_on_best_fit<ConcurrencyTag>(mesh, result.fit, fit_options, points, fit_with,
+                                                               remesh_options, parameters);
+  return result;
+}
+
+} // namespace equiaffine
+
+#endif
