@@ -46,12 +46,11 @@ using Formula = std::pair<std::string, std::map<std::string, double>>;
 /// A source is made of one of these.
 using Given = std::variant<Formula, Volume_array, std::shared_ptr<const Fit>>;
 
-/// Parses a command, which is of that type, and calls `compute(options, progress)` as observed() does.
-template <class Command_options, class Compute>
+/// Parses a command, and calls `compute(request, progress)` as observed() does.
+template <class Compute>
 auto run(const Words& words, const py::object& progress_function, const Compute& compute) {
-  Options options = parse_options(words);
-  return observed(progress_function, options.threads,
-                  [&](Progress& progress) { return compute(std::get<Command_options>(options.command), progress); });
+  Request request = parse_options(words);
+  return observed(progress_function, request.threads, [&](Progress& progress) { return compute(request, progress); });
 }
 
 Source make_given_source(Source_options& options, const Given& given, Progress& progress, double radius) {
@@ -63,13 +62,12 @@ Source make_given_source(Source_options& options, const Given& given, Progress& 
 }
 
 py::object mesh(const Words& words, const Given& given, const py::object& progress_function) {
-  return run<Mesh_options>(words, progress_function, [&](Mesh_options& options, Progress& progress) {
+  return run(words, progress_function, [&](Request& options, Progress& progress) {
     check_memory(options);
     if (std::holds_alternative<Volume_array>(given))
       options.source.estimates_errors = has_affine_curvatures(options.attributes, options.estimates);
-    const auto* const delaunay = std::get_if<Delaunay_options>(&options.method);
     const Source source =
-        make_given_source(options.source, given, progress, delaunay ? delaunay->radius.value_or(0) : 0);
+        make_given_source(options.source, given, progress, options.delaunay.radius.value_or(0));
     auto surface = std::make_shared<Annotated_surface>(surface_of(source, options, progress));
     add_errors(surface->estimates, surface->attributes);
     if (const auto& fit = surface->estimates.fit) surface->attributes.comments = comments_of(*fit);
@@ -88,16 +86,16 @@ py::object mesh(const Words& words, const Given& given, const py::object& progre
 }
 
 py::object annotate(const Words& words, Mesh data, const py::object& progress_function) {
-  return run<Annotate_options>(words, progress_function, [&](Annotate_options& options, Progress& progress) {
-    check_vertices(data.mesh.points, options.mesh);
-    const auto structures = fit_vertices(data, options.fit, options.orientation);
+  return run(words, progress_function, [&](Request& options, Progress& progress) {
+    check_vertices(data.mesh.points, options.input);
+    const auto structures = fit_vertices(data, options.source.fit, options.orientation);
     const Estimates estimates = estimates_of(structures);
     data.attributes = attributes_of(structures, options.attributes);
     add_estimates(estimates, options.estimates, data.attributes);
     add_errors(estimates, data.attributes);
     data.attributes.comments = comments_of(*estimates.fit);
     warn_of_opposed_normals(data, progress);
-    warn_of_doubt(*estimates.fit, options.fit, has_affine_curvatures(options.attributes, options.estimates), true,
+    warn_of_doubt(*estimates.fit, options.source.fit, has_affine_curvatures(options.attributes, options.estimates), true,
                   progress);
     return [&data, scale = estimates.fit->scale] {
       return arrays_of(std::move(data.mesh), std::move(data.attributes), scale);
@@ -106,7 +104,7 @@ py::object annotate(const Words& words, Mesh data, const py::object& progress_fu
 }
 
 py::object evaluate(const Words& words, const Given& given, const Mesh& at, const py::object& progress_function) {
-  return run<Evaluate_options>(words, progress_function, [&](Evaluate_options& options, Progress& progress) {
+  return run(words, progress_function, [&](Request& options, Progress& progress) {
     const Source source = make_given_source(options.source, given, progress, 0);
     const auto& points = at.mesh.points;
     std::vector<double> values(points.size());
@@ -123,9 +121,9 @@ py::object evaluate(const Words& words, const Given& given, const Mesh& at, cons
 }
 
 std::shared_ptr<Fit> fit(const Words& words, Mesh data, const py::object& progress_function) {
-  return run<Annotate_options>(words, progress_function, [&](Annotate_options& options, Progress& progress) {
-    check_vertices(data.mesh.points, options.mesh);
-    const auto traits = blend_vertices(data, options.fit);
+  return run(words, progress_function, [&](Request& options, Progress& progress) {
+    check_vertices(data.mesh.points, options.input);
+    const auto traits = blend_vertices(data, options.source.fit);
     if (traits.bbox() == CGAL::Bbox_3())
       throw Input_error("no point has enough others around it for a polynomial; give more points or a larger --scale");
     warn_of_opposed_normals(data, progress);
@@ -133,14 +131,14 @@ std::shared_ptr<Fit> fit(const Words& words, Mesh data, const py::object& progre
   });
 }
 
-/// Gives a surface of a register or symmetries command its data, if they are in memory.
-void give(Surface_options& surface, const std::optional<Mesh>& data) {
-  if (data) surface.source.data = [&data] { return *data; };
+/// Gives a source of a register or symmetries command its data, if they are in memory.
+void give(Source_options& source, const std::optional<Mesh>& data) {
+  if (data) source.data = [&data] { return *data; };
 }
 
 py::tuple register_(const Words& words, const std::optional<Mesh>& source, const std::optional<Mesh>& target,
                     const py::object& progress_function) {
-  return run<Register_options>(words, progress_function, [&](Register_options& options, Progress& progress) {
+  return run(words, progress_function, [&](Request& options, Progress& progress) {
     give(options.source, source);
     give(options.target, target);
     return [report = report_of(options, find_map(options, progress))] {
@@ -150,8 +148,8 @@ py::tuple register_(const Words& words, const std::optional<Mesh>& source, const
 }
 
 py::tuple symmetries(const Words& words, const std::optional<Mesh>& surface, const py::object& progress_function) {
-  return run<Symmetries_options>(words, progress_function, [&](Symmetries_options& options, Progress& progress) {
-    give(options.surface, surface);
+  return run(words, progress_function, [&](Request& options, Progress& progress) {
+    give(options.source, surface);
     return [report = report_of(options, find_symmetries(options, progress))] {
       return py::make_tuple(to_JSON(report), summary(report));
     };
@@ -192,7 +190,7 @@ void write_samples(const std::string& path, const Volume_array& samples) {
 }
 
 void show_surface(const Words& words, const Mesh& surface) {
-  run<View_options>(words, py::none(), [&](View_options& options, Progress&) {
+  run(words, py::none(), [&](Request& options, Progress&) {
     show(surface, "the surface", options);
     return [] { return py::none(); };
   });

@@ -16,7 +16,7 @@ namespace equiaffine {
 
 void Option_reader::read(const Option_row& row) {
   const std::string name = row.name();
-  if (has(name) && names_read_.insert(name).second) row.read({name, line_.options.at(name)}, draft_);
+  if (has(name) && names_read_.insert(name).second) row.read({name, line_.options.at(name)}, request_);
 }
 
 void Option_reader::read(std::initializer_list<const char*> options) {
@@ -63,7 +63,7 @@ std::vector<std::string> input_files(const Option_reader& reader) {
   for (const char* option :
        {"FILE", "--volume", "--distance-to", "--fit", "--points", "--range-of", "MESH.ply", "MESH"})
     if (reader.has(option)) files.push_back(reader.word(option));
-  if (const Source_options& source = reader.draft().source; source.kind == Source_kind::VOLUME && !source.raw)
+  if (const Source_options& source = reader.request().source; source.kind == Source_kind::VOLUME && !source.raw)
     for (std::string& file : files_read_with(source.text)) files.push_back(std::move(file));
   if (reader.has("--function"))
     if (const auto file = formula_file(reader.word("--function"))) files.push_back(*file);
@@ -113,7 +113,7 @@ void refuse_fit_options(const Option_reader& reader) {
     reader.refuse({"--scale", "--noise", "--degree", "--feature-angle"},
                   "it is for the polynomials of --fit, and " + reason, advice);
   };
-  const Source_options& source = reader.draft().source;
+  const Source_options& source = reader.request().source;
   switch (source.kind) {
   case Source_kind::FUNCTION: return refuse("a formula has no points to fit", "leave it out");
   case Source_kind::VOLUME:
@@ -134,14 +134,14 @@ void read_kind(Option_reader& reader) {
   }
   if (given.empty()) fail_without_source(reader.command());
   if (reader.has("FILE")) check_is_no_formula(reader.word("FILE"));
-  Source_options& source = reader.draft().source;
+  Source_options& source = reader.request().source;
   const bool has_derivatives = source.kind == Source_kind::FUNCTION || source.kind == Source_kind::FIT;
   source.derivatives = has_derivatives ? Derivatives::JETS : Derivatives::SPLINE;
 }
 
 /// Checks that the source has what was read of it, and that a formula has a box where it is sampled.
 void check_kind(const Option_reader& reader) {
-  const Source_options& source = reader.draft().source;
+  const Source_options& source = reader.request().source;
   if (source.kind != Source_kind::FUNCTION) reader.refuse({"--set"}, "only a --function has constants", "leave it out");
   if (source.kind == Source_kind::VOLUME)
     reader.refuse({"--box", "--resolution"}, "a --volume has its own", "leave it out");
@@ -158,13 +158,13 @@ void check_kind(const Option_reader& reader) {
 }
 
 void read_spline(Option_reader& reader) {
-  if (reader.draft().source.derivatives == Derivatives::JETS)
+  if (reader.request().source.derivatives == Derivatives::JETS)
     reader.refuse({"--spline-degree", "--spline-scheme", "--smoothing"},
                   "it is for splines, and the derivatives are those of the formula or the fit",
-                  reader.draft().source.kind == Source_kind::FIT ? "leave it out"
+                  reader.request().source.kind == Source_kind::FIT ? "leave it out"
                                                                  : "add --derivatives spline or leave it out");
   reader.read({"--spline-scheme", "--spline-degree"});
-  const Volume_options& spline = reader.draft().source.spline;
+  const Volume_options& spline = reader.request().source.spline;
   if (spline.spline_scheme == Spline_scheme::PAPER && spline.spline_degree != 5)
     fail_option("--spline-degree", "the paper's spline has degree 5", "leave it out or use another --spline-scheme");
   reader.read({"--smoothing"});
@@ -173,7 +173,7 @@ void read_spline(Option_reader& reader) {
 /// Reads what a file `.raw` does not say itself; the options are refused for others.
 void read_raw_layout(Option_reader& reader) {
   if (reader.command() == SAMPLE) return; // its --type is the type that it writes
-  const Source_options& source = reader.draft().source;
+  const Source_options& source = reader.request().source;
   const bool is_raw = source.kind == Source_kind::VOLUME && has_extension(source.text, ".raw");
   if (!is_raw)
     return reader.refuse({"--dims", "--spacing", "--origin", "--type"},
@@ -185,7 +185,7 @@ void read_raw_layout(Option_reader& reader) {
 
 /// Reads what is to be read of a volume; the options are refused for other sources.
 void read_selection(Option_reader& reader) {
-  const Source_options& source = reader.draft().source;
+  const Source_options& source = reader.request().source;
   if (source.kind != Source_kind::VOLUME)
     reader.refuse({"--component", "--time", "--allow-outside"}, "it is for a --volume", "leave it out");
   if (source.raw)
@@ -203,7 +203,7 @@ void read_source(Option_reader& reader) {
   read_spline(reader);
   read_raw_layout(reader);
   read_selection(reader);
-  if (reader.draft().source.kind != Source_kind::DISTANCE)
+  if (reader.request().source.kind != Source_kind::DISTANCE)
     reader.refuse({"--narrow-band"}, "it is for --distance-to", "leave it out");
   refuse_fit_options(reader);
   reader.read({"--narrow-band", "--scale", "--noise", "--degree", "--feature-angle"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the words of a command line become a request, by way of a draft.
+// How the words of a command line become a request, by way of a request.
 #ifndef EQUIAFFINE_PROGRAM_CLI_OPTION_READER_H
 #define EQUIAFFINE_PROGRAM_CLI_OPTION_READER_H
 
@@ -13,14 +13,17 @@
 
 namespace equiaffine {
 
-/// Reads the options of a command line into a draft, by their rows in the table. Only the first error is reported, so
+/// Reads the options of a command line into a request, by their rows in the table. Only the first error is reported, so
 /// the order of the calls matters to users.
 class Option_reader {
 public:
-  explicit Option_reader(const Command_line& line) : line_(line) {}
+  explicit Option_reader(const Command_line& line) : line_(line) {
+    request_.command = line.command;
+    request_.information = line.information;
+  }
 
-  Draft& draft() { return draft_; }
-  const Draft& draft() const { return draft_; }
+  Request& request() { return request_; }
+  const Request& request() const { return request_; }
 
   Command command() const { return line_.command; }
   bool has(const std::string& option) const { return line_.has(option); }
@@ -43,7 +46,7 @@ private:
 
   const Command_line& line_;
   std::set<std::string> names_read_;
-  Draft draft_;
+  Request request_;
 };
 
 /// The paths of the files that the command line says to read, and of those that the headers of volumes among them name.
@@ -66,9 +69,9 @@ void read_source(Option_reader& reader);
 
 /// Reads the command line of `register`: one source stands before the word `to`, the other one after it, and options
 /// that belong to neither may stand on both sides. Throws `Input_error`.
-Options parse_register_options(const Words& arguments);
+Request parse_register_options(const Words& arguments);
 
-Symmetries_options read_symmetries_options(Option_reader& reader);
+void read_symmetries_options(Option_reader& reader);
 
 } // namespace equiaffine
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of options, the draft that their values go to, and the words of a command line.
+// The table of options, and the words of a command line.
 #ifndef EQUIAFFINE_PROGRAM_CLI_COMMAND_LINE_H
 #define EQUIAFFINE_PROGRAM_CLI_COMMAND_LINE_H
 
 #include "cli/option_values.h"
-#include "request/options.h"
+#include "request/Request.h"
 
 #include <cstddef>
 #include <map>
@@ -15,41 +15,13 @@
 
 namespace equiaffine {
 
-/// The ways to make a mesh.
-enum class Mesh_method { MARCHING_CUBES, DELAUNAY, REMESH };
-
-/// The values of the options of all commands; each command takes its part. The defaults that the structs of requests do
-/// not have are here.
-struct Draft {
-  std::optional<std::size_t> threads, memory;
-  Source_options source;
-  double isovalue = 0;
-  Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
-  Mesh_method method = Mesh_method::MARCHING_CUBES;
-  Marching_cubes_options marching_cubes;
-  Remesh_options remesh;
-  Delaunay_options delaunay;
-  std::optional<std::size_t> largest;
-  Attribute_selection attributes = select_attributes("basic");
-  std::vector<std::string> estimates; ///< the columns of errors and of noise that are asked for
-  Estimator estimator = Estimator::COMPACT;
-  Display_options display;
-  bool samples_are_float = false;
-  Registration_options registration;
-  bool lists_maps = false;
-  bool searches_all_rotations = false;
-  std::string mesh, points; ///< the files that `view` and `annotate`, and that `evaluate` reads
-  std::optional<std::string> output, moved, curves, stats;
-};
-
 /// Formulas and volumes have z up unless something else is asked for; the shapes of data tell what is up.
 inline void choose_up(Source_kind kind, Display_options& display) {
   const bool is_data = kind == Source_kind::FIT || kind == Source_kind::DISTANCE;
   if (!is_data && !display.up) display.up = {0, 0, 1};
 }
 
-/// The commands of the program, as bits: an option of several commands has their sum.
-enum Command : unsigned { MESH = 1, EVALUATE = 2, SAMPLE = 4, VIEW = 8, ANNOTATE = 16, REGISTER = 32, SYMMETRIES = 64 };
+/// Commands of an option, as bits.
 using Commands = unsigned;
 
 /// The commands that look for maps.
@@ -84,8 +56,8 @@ struct Option_row {
   Number_of_words words;
   std::string type; ///< how the help writes the words
   std::string help;
-  /// Reads the words and puts their value into the draft. Throws `Input_error` if it cannot read them.
-  void (*read)(const Option_words& option, Draft& draft);
+  /// Reads the words and puts their value into the request. Throws `Input_error` if it cannot read them.
+  void (*read)(const Option_words& option, Request& request);
 
   /// The last of the names, by which messages call the option.
   std::string name() const { return names.substr(names.find(',') + 1); }

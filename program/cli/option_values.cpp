@@ -39,6 +39,12 @@ void fail_option(const std::string& option, const std::string& reason, const std
   throw Input_error(option + ": " + reason + "; " + advice);
 }
 
+std::string option_of_field(const std::string& field) {
+  std::string option = field.substr(field.rfind('.') + 1);
+  std::replace(option.begin(), option.end(), '_', '-');
+  return "--" + option;
+}
+
 bool is_number(const std::string& word) { return parse_number<double>(word).has_value(); }
 
 double parse_finite_number(const std::string& option, const std::string& word) {

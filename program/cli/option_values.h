@@ -4,6 +4,7 @@
 #define EQUIAFFINE_PROGRAM_CLI_OPTION_VALUES_H
 
 #include "system/kernel.h"
+#include <equiaffine/base/Input_error.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Bbox_3.h>
@@ -32,6 +33,19 @@ struct Option_words {
 
 /// "option: reason; advice"
 [[noreturn]] void fail_option(const std::string& option, const std::string& reason, const std::string& advice);
+
+/// The option that a field of an options struct is on the command line: "--min-overlap" for "min_overlap".
+std::string option_of_field(const std::string& field);
+
+/// Checks an options struct. Throws its error with the name of the option in the place of that of the field.
+template <class Options>
+void check_options(const Options& options) {
+  try {
+    options.check();
+  } catch (const Input_error& error) {
+    throw Input_error(option_of_field(error.field()) + ": " + error.sentence());
+  }
+}
 
 bool is_number(const std::string& word);
 

@@ -115,14 +115,14 @@ Attribute_words split_attributes(const Option_words& option) {
   return words;
 }
 
-/// Puts the words into the draft, the estimates in the order of their table.
-void select(const Attribute_words& words, const std::string& option, Draft& draft) {
+/// Puts the words into the request, the estimates in the order of their table.
+void select(const Attribute_words& words, const std::string& option, Request& request) {
   std::string list;
   for (const std::string& name : words.attributes) list += (list.empty() ? "" : ",") + name;
-  draft.attributes = select(list.empty() && !words.estimates.empty() ? "status" : list, option);
-  draft.estimates.clear();
+  request.attributes = select(list.empty() && !words.estimates.empty() ? "status" : list, option);
+  request.estimates.clear();
   for (const auto& attribute : estimate_attributes())
-    if (words.estimates.contains(attribute.name)) draft.estimates.push_back(attribute.name);
+    if (words.estimates.contains(attribute.name)) request.estimates.push_back(attribute.name);
 }
 
 /// The lists of attributes of a fit have estimates, too.
@@ -136,76 +136,76 @@ void add_estimates_of_lists(Attribute_words& words) {
 }
 
 /// Checks the estimates for a source that is no fit, and adds those that come together.
-void complete_estimates(const Option_words& option, const Draft& draft, Attribute_words& words) {
+void complete_estimates(const Option_words& option, const Request& request, Attribute_words& words) {
   if (words.estimates.empty()) return;
   for (const auto& attribute : estimate_attributes())
     if (!attribute.is_of_splines && words.estimates.contains(attribute.name))
       fail_option(option.name, "'" + attribute.name + "' is estimated for fits", "use --fit or leave it out");
-  if (draft.source.derivatives == Derivatives::JETS)
+  if (request.source.derivatives == Derivatives::JETS)
     fail_option(option.name, "errors are estimated for splines and fits, and the derivatives of a formula have none",
                 "add --derivatives spline or leave them out");
   for (const auto& attribute : estimate_attributes())
     if (attribute.is_of_splines) words.estimates.insert(attribute.name);
 }
 
-void read_attributes(const Option_words& option, Draft& draft) {
+void read_attributes(const Option_words& option, Request& request) {
   Attribute_words words = split_attributes(option);
-  if (draft.source.kind == Source_kind::FIT) add_estimates_of_lists(words);
-  else complete_estimates(option, draft, words);
-  select(words, option.name, draft);
+  if (request.source.kind == Source_kind::FIT) add_estimates_of_lists(words);
+  else complete_estimates(option, request, words);
+  select(words, option.name, request);
 }
 
 /// Reads the attributes of the command annotate.
-void read_attributes_of_fit(const Option_words& option, Draft& draft) {
+void read_attributes_of_fit(const Option_words& option, Request& request) {
   Attribute_words words = split_attributes(option);
   for (const std::string& name : words.attributes)
     if (name == "signature" || name.ends_with("_gradient"))
       fail_option(option.name, "'" + name + "' needs a function, and a fit at points has no gradients of curvatures",
                   "leave it out, or use mesh --fit");
   add_estimates_of_lists(words);
-  select(words, option.name, draft);
+  select(words, option.name, request);
 }
 
-void read_estimator(const Option_words& option, Draft& draft) {
-  draft.estimator = parse_choice<Estimator>(option, {{"compact", Estimator::COMPACT},
+void read_estimator(const Option_words& option, Request& request) {
+  request.estimator = parse_choice<Estimator>(option, {{"compact", Estimator::COMPACT},
                                                      {"transformation", Estimator::TRANSFORMATION},
                                                      {"direct", Estimator::DIRECT},
                                                      {"direct-z", Estimator::DIRECT_Z}});
 }
 
-void read_up(const Option_words& option, Draft& draft) {
+void read_up(const Option_words& option, Request& request) {
   using Up = std::optional<std::array<double, 3>>;
-  draft.display.up =
+  request.display.up =
       parse_choice<Up>(option, {{"x", {{1, 0, 0}}}, {"y", {{0, 1, 0}}}, {"z", {{0, 0, 1}}}, {"auto", std::nullopt}});
 }
 
-void read_colors(const Option_words& option, Draft& draft) {
+void read_colors(const Option_words& option, Request& request) {
   using Scale = std::optional<Color_scale>;
-  draft.display.scale = parse_choice<Scale>(option, {{"linear", Color_scale::LINEAR},
+  request.display.scale = parse_choice<Scale>(option, {{"linear", Color_scale::LINEAR},
                                                      {"logarithmic", Color_scale::ASINH},
                                                      {"equalized", Color_scale::EQUALIZED},
                                                      {"auto", std::nullopt}});
 }
 
-void read_size(const Option_words& option, Draft& draft) {
+void read_size(const Option_words& option, Request& request) {
   constexpr std::size_t least = 100, most = 10'000; // for a legend, and for memory
   for (std::size_t n = 0; n < 2; ++n) {
     const std::string& word = option.words[n];
-    draft.display.size[n] = parse_count(option.name, word, least);
-    if (draft.display.size[n] > most)
+    request.display.size[n] = parse_count(option.name, word, least);
+    if (request.display.size[n] > most)
       fail_option(option.name, "'" + word + "' is more than 10000", "give fewer pixels");
   }
 }
 
-void read_range(const Option_words& option, Draft& draft) {
+void read_range(const Option_words& option, Request& request) {
   const auto& [name, words] = option;
   const double low = parse_finite_number(name, words[0]), high = parse_finite_number(name, words[1]);
   if (!(low < high))
     fail_option(name, "'" + words[0] + "' is not less than '" + words[1] + "'", "give the smaller number first");
-  draft.display.range = {low, high};
+  request.display.range = {low, high};
 }
 
-void read_output(const Option_words& option, Draft& draft) { draft.output = option.word(); }
+void read_output(const Option_words& option, Request& request) { request.output = option.word(); }
 
 const std::vector<Option_row> rows_of_outputs = {
     {"-o,--output", MESH, OUTPUT, 1, "OUT",
@@ -226,10 +226,10 @@ const std::vector<Option_row> rows_of_outputs = {
     {"-o,--output", SYMMETRIES, OUTPUT, 1, "MAPS.json", "the maps; - writes to standard output", read_output},
     {"--moved", REGISTER, OUTPUT, 1, "OUT",
      "also the moved source, as a mesh with distances from the target: .ply .off .obj .stl .vtp\n.csv",
-     [](const Option_words& option, Draft& draft) { draft.moved = option.word(); }},
+     [](const Option_words& option, Request& request) { request.moved = option.word(); }},
     {"--type", SAMPLE, OUTPUT, 1, "float|double", "the type of the samples, by default double",
-     [](const Option_words& option, Draft& draft) {
-       draft.samples_are_float = parse_choice<bool>(option, {{"float", true}, {"double", false}});
+     [](const Option_words& option, Request& request) {
+       request.samples_are_float = parse_choice<bool>(option, {{"float", true}, {"double", false}});
      }},
     {"--attributes", MESH | EVALUATE, OUTPUT, 1, "basic|all|none|LIST", attributes_help(), read_attributes},
     {"--attributes", ANNOTATE, OUTPUT, 1, "basic|all|none|LIST", attributes_of_fit_help(), read_attributes_of_fit},
@@ -240,13 +240,13 @@ const std::vector<Option_row> rows_of_outputs = {
      read_estimator},
     {"--html", MESH | ANNOTATE | registering, OUTPUT, 1, "PAGE.html",
      "also a web page to look at the surface, without network",
-     [](const Option_words& option, Draft& draft) { draft.display.html = option.word(); }},
+     [](const Option_words& option, Request& request) { request.display.html = option.word(); }},
     {"--png", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "PICTURE.png",
      "also a picture, which is what the page shows first; needs no display",
-     [](const Option_words& option, Draft& draft) { draft.display.png = option.word(); }},
+     [](const Option_words& option, Request& request) { request.display.png = option.word(); }},
     {"--color", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "NAME",
      "the attribute that page and picture show first, or status or plain",
-     [](const Option_words& option, Draft& draft) { draft.display.color = option.word(); }},
+     [](const Option_words& option, Request& request) { request.display.color = option.word(); }},
     {"--up", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "x|y|z|auto",
      "the axis that points up on them: by default z for formulas and volumes; auto, the default\n"
      "for all else, is y, as in most scans, or z if the shape stands on a wider foot along z",
@@ -265,21 +265,21 @@ const std::vector<Option_row> rows_of_outputs = {
     {"--range-of", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "FILE",
      "numbers get the colors that they have in a page of ours, .html, or would have in a mesh\n"
      "with the same attribute, .ply, so that two surfaces can be compared",
-     [](const Option_words& option, Draft& draft) {
-       if (draft.display.range)
+     [](const Option_words& option, Request& request) {
+       if (request.display.range)
          fail_option(option.name, "--range says which numbers have the end colors, too", "leave one of them out");
-       draft.display.range_of = option.word();
+       request.display.range_of = option.word();
      }},
     {"--arrows", MESH | VIEW | ANNOTATE | SYMMETRIES, OUTPUT, 1, "VECTOR",
      "arrows on the picture, such as affine_normal",
-     [](const Option_words& option, Draft& draft) { draft.display.arrows = option.word(); }},
+     [](const Option_words& option, Request& request) { request.display.arrows = option.word(); }},
     {"--parabolic-curves", MESH, OUTPUT, 1, "CURVES",
      "also the curves on the surface where gaussian_curvature is 0 and changes its sign:\n"
      ".obj" +
          vtp + "; - writes OBJ to standard output",
-     [](const Option_words& option, Draft& draft) { draft.curves = option.word(); }},
+     [](const Option_words& option, Request& request) { request.curves = option.word(); }},
     {"--stats", MESH | ANNOTATE, OUTPUT, 1, "FILE.json", "also statistics: sizes, topology, status, accuracy, times",
-     [](const Option_words& option, Draft& draft) { draft.stats = option.word(); }},
+     [](const Option_words& option, Request& request) { request.stats = option.word(); }},
 };
 
 } // namespace

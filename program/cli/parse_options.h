@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_PROGRAM_CLI_PARSE_OPTIONS_H
 #define EQUIAFFINE_PROGRAM_CLI_PARSE_OPTIONS_H
 
-#include "request/options.h"
+#include "request/Request.h"
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@
 namespace equiaffine {
 
 /// Reads the command line, without the program's name. Throws `Input_error` for everything that makes no sense.
-Options parse_options(const std::vector<std::string>& arguments);
+Request parse_options(const std::vector<std::string>& arguments);
 
 } // namespace equiaffine
 

@@ -42,15 +42,14 @@ void move_common_options(Command_line& from, Command_line& to) {
   }
 }
 
-Surface_options read_surface(Option_reader& reader) {
+void read_surface(Option_reader& reader) {
   read_source(reader);
   reader.read({"--isovalue"});
-  if (reader.draft().source.spline.spline_scheme == Spline_scheme::PAPER)
+  Source_options& source = reader.request().source;
+  if (source.spline.spline_scheme == Spline_scheme::PAPER)
     fail_option("--spline-scheme", "paper has no expansions that belong to one function", "use quasi-interpolation");
-  Surface_options surface{reader.draft().source, reader.draft().isovalue};
-  surface.source.spline.level = surface.isovalue;
-  surface.source.is_registered = true;
-  return surface;
+  source.spline.level = source.level;
+  source.is_registered = true;
 }
 
 /// Reads the options that are left, and checks that page and picture have what they are to show.
@@ -59,63 +58,50 @@ void read_outputs(Option_reader& reader, std::initializer_list<std::string_view>
   refuse_picture_options(reader);
   refuse_page_options(reader);
   reader.read_rest();
-  const std::string& color = reader.draft().display.color;
+  const std::string& color = reader.request().display.color;
   if (!color.empty() && std::find(colors.begin(), colors.end(), color) == colors.end())
     fail_option("--color", "'" + color + "' is not known", "use distance or plain");
 }
 
-Register_options make_register_options(Option_reader& reader, Option_reader& target_reader) {
-  Register_options options;
-  options.source = read_surface(reader);
-  options.target = read_surface(target_reader);
-  if (options.source.source.text == "-" && options.target.source.text == "-")
+void read_register_options(Option_reader& reader, Option_reader& target_reader) {
+  read_surface(reader);
+  read_surface(target_reader);
+  Request& request = reader.request();
+  request.target = target_reader.request().source;
+  if (request.source.text == "-" && request.target.text == "-")
     throw Input_error("both sources read standard input; name a file for one of them");
   read_outputs(reader, {"distance", "surface", "plain"});
   std::vector<std::string> inputs = input_files(reader);
   for (const std::string& file : input_files(target_reader)) inputs.push_back(file);
-  const Draft& draft = reader.draft();
-  check_outputs(inputs, {draft.output, draft.moved, draft.display.html, draft.display.png});
-  options.registration = draft.registration;
-  options.lists_maps = draft.lists_maps;
-  options.output = *draft.output;
-  options.moved = draft.moved;
-  options.display = draft.display;
-  for (const auto* surface : {&options.source, &options.target}) choose_up(surface->source.kind, options.display);
-  return options;
+  check_outputs(inputs, {request.output, request.moved, request.display.html, request.display.png});
+  for (const auto* source : {&request.source, &request.target}) choose_up(source->kind, request.display);
 }
 
 } // namespace
 
-Options parse_register_options(const Words& arguments) {
+Request parse_register_options(const Words& arguments) {
   const auto to = find_to(arguments);
   Command_line line = split_command_line(Words(arguments.begin(), to));
-  if (line.information) return {Information{*line.information}, {}, {}};
+  Option_reader reader(line);
+  if (line.information) return reader.request();
   if (to == arguments.end()) throw Input_error(std::string("the word 'to' between two sources is missing; ") + usage);
   Words rest = {arguments.front()};
   rest.insert(rest.end(), to + 1, arguments.end());
   Command_line target = split_command_line(rest);
-  if (target.information) return {Information{*target.information}, {}, {}};
+  Option_reader target_reader(target);
+  if (target.information) return target_reader.request();
   move_common_options(target, line);
-  Option_reader reader(line), target_reader(target);
   reader.read({"--threads"});
-  return {make_register_options(reader, target_reader), reader.draft().threads, {}};
+  read_register_options(reader, target_reader);
+  return reader.request();
 }
 
-Symmetries_options read_symmetries_options(Option_reader& reader) {
-  Symmetries_options options;
-  options.surface = read_surface(reader);
+void read_symmetries_options(Option_reader& reader) {
+  read_surface(reader);
   read_outputs(reader, {"distance", "surface", "plain"});
-  const Draft& draft = reader.draft();
-  check_outputs(input_files(reader), {draft.output, draft.display.html, draft.display.png});
-  const Registration_options& maps = draft.registration;
-  options.symmetries = {.kind = maps.kind,
-                        .reflections = maps.reflections,
-                        .tolerance = maps.tolerance,
-                        .complete = draft.searches_all_rotations};
-  options.output = *draft.output;
-  options.display = draft.display;
-  choose_up(options.surface.source.kind, options.display);
-  return options;
+  Request& request = reader.request();
+  check_outputs(input_files(reader), {request.output, request.display.html, request.display.png});
+  choose_up(request.source.kind, request.display);
 }
 
 } // namespace equiaffine

@@ -7,17 +7,17 @@ namespace {
 
 using enum Option_group;
 
-void read_derivatives(const Option_words& option, Draft& draft) {
-  draft.source.derivatives =
+void read_derivatives(const Option_words& option, Request& request) {
+  request.source.derivatives =
       parse_choice<Derivatives>(option, {{"jets", Derivatives::JETS}, {"spline", Derivatives::SPLINE}});
 }
 
-void read_spline_degree(const Option_words& option, Draft& draft) {
-  draft.source.spline.spline_degree = parse_choice<int>(option, {{"5", 5}, {"7", 7}, {"9", 9}});
+void read_spline_degree(const Option_words& option, Request& request) {
+  request.source.spline.spline_degree = parse_choice<int>(option, {{"5", 5}, {"7", 7}, {"9", 9}});
 }
 
-void read_spline_scheme(const Option_words& option, Draft& draft) {
-  Volume_options& spline = draft.source.spline;
+void read_spline_scheme(const Option_words& option, Request& request) {
+  Volume_options& spline = request.source.spline;
   spline.spline_scheme =
       parse_choice<Spline_scheme>(option, {{"quasi-interpolation", Spline_scheme::QUASI_INTERPOLATION},
                                            {"interpolation", Spline_scheme::INTERPOLATION},
@@ -26,8 +26,8 @@ void read_spline_scheme(const Option_words& option, Draft& draft) {
   if (spline.spline_scheme == Spline_scheme::PAPER) spline.spline_degree = 5;
 }
 
-void read_smoothing(const Option_words& option, Draft& draft) {
-  std::optional<double>& smoothing = draft.source.spline.smoothing;
+void read_smoothing(const Option_words& option, Request& request) {
+  std::optional<double>& smoothing = request.source.spline.smoothing;
   if (option.word() == "auto") return smoothing.reset();
   smoothing = parse_number(option);
   constexpr double most = 100; // voxels
@@ -36,53 +36,53 @@ void read_smoothing(const Option_words& option, Draft& draft) {
                 "use 0 for none, some 1.5 to 8 for noise, or auto");
 }
 
-void read_orientation(const Option_words& option, Draft& draft) {
-  draft.orientation =
+void read_orientation(const Option_words& option, Request& request) {
+  request.orientation =
       parse_choice<Orientation_of_level_set>(option, {{"gradient", Orientation_of_level_set::ALONG_GRADIENT},
                                                       {"against", Orientation_of_level_set::AGAINST_GRADIENT}});
 }
 
-void read_method(const Option_words& option, Draft& draft) {
-  draft.method = parse_choice<Mesh_method>(option, {{"marching-cubes", Mesh_method::MARCHING_CUBES},
+void read_method(const Option_words& option, Request& request) {
+  request.method = parse_choice<Mesh_method>(option, {{"marching-cubes", Mesh_method::MARCHING_CUBES},
                                                     {"delaunay", Mesh_method::DELAUNAY},
                                                     {"remesh", Mesh_method::REMESH}});
 }
 
-void read_threads(const Option_words& option, Draft& draft) {
+void read_threads(const Option_words& option, Request& request) {
   constexpr std::size_t most = 1024; // any computer of today can run a pool of so many threads
-  draft.threads = parse_count(option.name, option.word(), 1);
-  if (*draft.threads > most)
+  request.threads = parse_count(option.name, option.word(), 1);
+  if (*request.threads > most)
     fail_option(option.name, "'" + option.word() + "' is more than " + std::to_string(most),
                 "give the number of processor cores, or leave it out to use all of them");
 }
 
-void read_vertices(const Option_words& option, Draft& draft) {
-  draft.marching_cubes.vertices = parse_choice<Vertex_position>(
+void read_vertices(const Option_words& option, Request& request) {
+  request.marching_cubes.vertices = parse_choice<Vertex_position>(
       option, {{"projected", Vertex_position::PROJECTED}, {"linear", Vertex_position::LINEAR}});
 }
 
-void read_sizing(const Option_words& option, Draft& draft) {
-  draft.delaunay.sizing = parse_choice<Facet_sizing>(
+void read_sizing(const Option_words& option, Request& request) {
+  request.delaunay.sizing = parse_choice<Facet_sizing>(
       option,
       {{"uniform", Facet_sizing::UNIFORM}, {"euclidean", Facet_sizing::EUCLIDEAN}, {"affine", Facet_sizing::AFFINE}});
 }
 
-void read_clip(const Option_words& option, Draft& draft) {
-  draft.delaunay.clip = parse_choice<Clip_shape>(option, {{"box", Clip_shape::BOX}, {"ball", Clip_shape::BALL}});
+void read_clip(const Option_words& option, Request& request) {
+  request.delaunay.clip = parse_choice<Clip_shape>(option, {{"box", Clip_shape::BOX}, {"ball", Clip_shape::BALL}});
 }
 
 const std::string threads_help = "threads to use, all by default; the result is always the same";
 
 const std::vector<Option_row> rows_of_surfaces = {
     {"--isovalue", MESH | registering, SURFACE, 1, "V", "the level set f = V, by default 0",
-     [](const Option_words& option, Draft& draft) { draft.isovalue = parse_number(option); }},
+     [](const Option_words& option, Request& request) { request.source.level = parse_number(option); }},
     {"--transform",
      MESH | EVALUATE | registering,
      SURFACE,
      {9, 12},
      "A11 A12 .. A33 [T1 T2 T3]",
      "take the image of the surface under p -> A p + T, A given row by row; T is 0 if not given",
-     [](const Option_words& option, Draft& draft) { draft.source.transformation = parse_transformation(option); }},
+     [](const Option_words& option, Request& request) { request.source.transformation = parse_transformation(option); }},
     {"--derivatives", MESH | EVALUATE | registering, SURFACE, 1, "jets|spline",
      "from the formula or the fit (jets, their default), or from a spline through samples\n"
      "on the grid (spline, the only way for volumes and distances, none for fits)",
@@ -116,35 +116,35 @@ const std::vector<Option_row> rows_of_surfaces = {
      {1, 3},
      "N [NY NZ]",
      "nodes of the grid per axis, 2 or more: 64, for a distance or fit 129; a volume has its own",
-     [](const Option_words& option, Draft& draft) { draft.source.resolution = parse_resolution(option); }},
+     [](const Option_words& option, Request& request) { request.source.resolution = parse_resolution(option); }},
     {"--largest", MESH, SAMPLING, 1, "N", "keep the N connected components of the greatest areas, all by default",
-     [](const Option_words& option, Draft& draft) { draft.largest = parse_count(option.name, option.word(), 1); }},
+     [](const Option_words& option, Request& request) { request.largest = parse_count(option.name, option.word(), 1); }},
     {"--yes", MESH | EVALUATE | SAMPLE | registering, SAMPLING, 0, "",
      "agree to use more than half of the memory of this computer",
-     [](const Option_words& option, Draft& draft) {
-       draft.source.memory_use =
+     [](const Option_words& option, Request& request) {
+       request.source.memory_use =
            parse_choice<Memory_use>(option, {{"true", Memory_use::ALL}, {"false", Memory_use::HALF}});
      }},
     {"--threads", MESH | EVALUATE | SAMPLE | ANNOTATE, SAMPLING, 1, "N", threads_help, read_threads},
     {"--memory", MESH | EVALUATE | SAMPLE | ANNOTATE, SAMPLING, 1, "LIMIT",
      "memory to have in use at once, such as 700M or 2G (2^20 and 2^30 bytes); what does not\n"
      "fit is kept in a file beside the output; the result is always the same",
-     [](const Option_words& option, Draft& draft) { draft.memory = parse_bytes(option); }},
+     [](const Option_words& option, Request& request) { request.memory = parse_bytes(option); }},
     {"--threads", registering, MAPS, 1, "N", threads_help, read_threads},
     {"--vertices", MESH, MARCHING_CUBES, 1, "projected|linear",
      "on the surface (projected, the default), or where linear interpolation along the\n"
      "grid edges finds it (linear)",
      read_vertices},
     {"--angle", MESH, DELAUNAY, 1, "DEG", "the least angle of triangles, at most 30, the default",
-     [](const Option_words& option, Draft& draft) { draft.delaunay.angle = parse_number(option); }},
+     [](const Option_words& option, Request& request) { request.delaunay.angle = parse_number(option); }},
     {"--radius", MESH, DELAUNAY, 1, "R",
      "the greatest radius of a ball about a point of the surface through the corners of a\n"
      "triangle, by default 1/50 of the diagonal of the box",
-     [](const Option_words& option, Draft& draft) { draft.delaunay.radius = parse_length(option); }},
+     [](const Option_words& option, Request& request) { request.delaunay.radius = parse_length(option); }},
     {"--distance", MESH, DELAUNAY, 1, "D",
      "the greatest distance of a triangle's circumcenter from the center of that ball, by\n"
      "default R/10",
-     [](const Option_words& option, Draft& draft) { draft.delaunay.distance = parse_length(option); }},
+     [](const Option_words& option, Request& request) { request.delaunay.distance = parse_length(option); }},
     {"--sizing", MESH, DELAUNAY, 1, "uniform|euclidean|affine",
      "triangles of one size (uniform, the default), smaller ones where a radius of curvature\n"
      "is less than 4 R (euclidean), or such of equal affine area (affine)",
@@ -152,7 +152,7 @@ const std::vector<Option_row> rows_of_surfaces = {
     {"--clip", MESH, DELAUNAY, 1, "box|ball",
      "cut the surface off at the box (the default) or at the largest ball in it", read_clip},
     {"--edge-length", MESH, REMESH, 1, "L", "of the triangles, by default the mean of the data",
-     [](const Option_words& option, Draft& draft) { draft.remesh.edge_length = parse_length(option); }},
+     [](const Option_words& option, Request& request) { request.remesh.edge_length = parse_length(option); }},
 };
 
 } // namespace
@@ -161,30 +161,20 @@ std::span<const Option_row> surface_options() { return rows_of_surfaces; }
 
 namespace {
 
-void read_kind(const Option_words& option, Draft& draft) {
-  draft.registration.kind = parse_choice<Map_kind>(option, {{"affine", Map_kind::AFFINE},
+void read_kind(const Option_words& option, Request& request) {
+  request.registration.kind = request.symmetries.kind = parse_choice<Map_kind>(option, {{"affine", Map_kind::AFFINE},
                                                             {"equiaffine", Map_kind::EQUIAFFINE},
                                                             {"similarity", Map_kind::SIMILARITY},
                                                             {"rigid", Map_kind::RIGID}});
 }
 
-void read_no_reflection(const Option_words& option, Draft& draft) {
-  draft.registration.reflections = parse_choice<bool>(option, {{"true", false}, {"false", true}});
+void read_no_reflection(const Option_words& option, Request& request) {
+  request.registration.reflections = request.symmetries.reflections = parse_choice<bool>(option, {{"true", false}, {"false", true}});
 }
 
-void read_min_overlap(const Option_words& option, Draft& draft) {
-  const double part = draft.registration.min_overlap = parse_number(option);
-  if (!(part >= 0 && part <= 1))
-    fail_option(option.name, "'" + option.word() + "' is not a part of a surface",
-                "give a number from 0 to 1, such as 0.05");
-}
-
-void read_tolerance(const Option_words& option, Draft& draft) {
-  const double part = parse_number(option);
-  draft.registration.tolerance = part;
-  if (!(part > 0 && part < 0.1))
-    fail_option(option.name, "'" + option.word() + "' is not between 0 and 0.1",
-                "give a part of the size of the surface, such as 1e-3, or leave it out");
+void read_tolerance(const Option_words& option, Request& request) {
+  request.registration.tolerance = request.symmetries.tolerance = parse_number(option);
+  check_options(request.registration);
 }
 
 const std::vector<Option_row> rows_of_maps = {
@@ -194,12 +184,15 @@ const std::vector<Option_row> rows_of_maps = {
      read_kind},
     {"--no-reflection", registering, MAPS, 0, "", "no map that turns left into right", read_no_reflection},
     {"--all", REGISTER, MAPS, 1, "N", "all maps with evidence, up to N, as those of a symmetric target or of copies",
-     [](const Option_words& option, Draft& draft) {
-       draft.registration.number_of_maps = parse_count(option.name, option.word(), 1);
-       draft.lists_maps = true;
+     [](const Option_words& option, Request& request) {
+       request.registration.number_of_maps = parse_count(option.name, option.word(), 1);
+       request.lists_maps = true;
      }},
     {"--min-overlap", REGISTER, MAPS, 1, "PART",
-     "the part of one of the surfaces, at least, that is to lie on the other, by default 0.05", read_min_overlap},
+     "the part of one of the surfaces, at least, that is to lie on the other, by default 0.05", [](const Option_words& option, Request& request) {
+       request.registration.min_overlap = parse_number(option);
+       check_options(request.registration);
+     }},
     {"--tolerance", registering, MAPS, 1, "PART",
      "the largest rms distance to which a map may move points from the other surface, a part of\n"
      "the size; by default what noise and facets explain. A symmetry of a formula moves them by\n"
@@ -208,8 +201,8 @@ const std::vector<Option_row> rows_of_maps = {
     {"--complete", SYMMETRIES, MAPS, 0, "",
      "search all rotations and reflections, as for a mesh, where a formula's frames of\n"
      "curvature decide by themselves",
-     [](const Option_words& option, Draft& draft) {
-       draft.searches_all_rotations = parse_choice<bool>(option, {{"true", true}, {"false", false}});
+     [](const Option_words& option, Request& request) {
+       request.symmetries.complete = parse_choice<bool>(option, {{"true", true}, {"false", false}});
      }},
 };
 

@@ -37,29 +37,28 @@ using Mesh = Indexed_triangle_mesh_3<Kernel>;
 
 constexpr bool in_threads = runs_in_threads<CGAL::Parallel_if_available_tag>();
 
-Mesh extract(const Source_function& function, const Surface_options& options, Progress& progress) {
+Mesh extract(const Source_function& function, const Source_options& options, Progress& progress) {
   progress.begin("extracting the surface");
-  auto surface = extract_surface(function, options.isovalue, options.source, Vertex_position::PROJECTED);
-  if (surface.triangles.empty() && (options.source.kind != Source_kind::FIT || options.isovalue != 0))
-    fail_without_surface(function, options.source, options.isovalue,
+  auto surface = extract_surface(function, options.level, options, Vertex_position::PROJECTED);
+  if (surface.triangles.empty() && (options.kind != Source_kind::FIT || options.level != 0))
+    fail_without_surface(function, options, options.level,
                          {"box", "a finer --resolution", surface.repairs.vertices_at_poles > 0});
   return surface;
 }
 
 /// Throws the error that says so if no point of the data is in the box.
 void check_box(const Source_function& function, const std::vector<Kernel::Point_3>& points,
-               const Surface_options& options) {
+               const Source_options& options) {
   const CGAL::Bbox_3 box = std::visit([](const auto& f) { return f.bbox(); }, function);
   if (std::any_of(points.begin(), points.end(), [&](const auto& p) { return CGAL::do_overlap(box, p.bbox()); })) return;
-  fail_without_surface(function, options.source, options.isovalue, {"box", "", false});
+  fail_without_surface(function, options, options.level, {"box", "", false});
 }
 
 } // namespace
 
-bool is_mesh_itself(const Surface_options& options) {
-  const Source_options& source = options.source;
+bool is_mesh_itself(const Source_options& source) {
   const bool has_mesh = source.kind == Source_kind::FIT || source.kind == Source_kind::DISTANCE;
-  return has_mesh && options.isovalue == 0 && !source.box;
+  return has_mesh && source.level == 0 && !source.box;
 }
 
 internal::Surface_origin origin_of_source(const Source_options& source) {
@@ -78,18 +77,18 @@ void read_data_once(Source_options& source, Progress& progress) {
   source.data = [data = std::make_shared<const Annotated_mesh_3<Kernel>>(read_vertices(source))] { return *data; };
 }
 
-internal::Surface_to_register make_surface_to_register(const Surface_options& options, bool is_shown,
+internal::Surface_to_register make_surface_to_register(const Source_options& options, bool is_shown,
                                                        Progress& progress) {
-  Source source = make_source(options.source, progress);
-  internal::Surface_to_register surface{.function = any_level_set(source.function, options.isovalue),
+  Source source = make_source(options, progress);
+  internal::Surface_to_register surface{.function = any_level_set(source.function, options.level),
                                         .mesh = std::move(source.data),
-                                        .origin = origin_of_source(options.source),
-                                        .given_scale = options.source.fit.scale,
+                                        .origin = origin_of_source(options),
+                                        .given_scale = options.fit.scale,
                                         .scale = source.fit ? source.fit->scale() : std::nullopt};
-  if (options.source.transformation)
-    for (Point& p : surface.mesh.points) p = (*options.source.transformation)(p);
-  if (source.unsmoothed) surface.unsmoothed = any_level_set(*source.unsmoothed, options.isovalue);
-  const bool has_data = !surface.mesh.points.empty() && options.isovalue == 0; // the data lie on f = 0
+  if (options.transformation)
+    for (Point& p : surface.mesh.points) p = (*options.transformation)(p);
+  if (source.unsmoothed) surface.unsmoothed = any_level_set(*source.unsmoothed, options.level);
+  const bool has_data = !surface.mesh.points.empty() && options.level == 0; // the data lie on f = 0
   if (has_data) check_box(source.function, surface.mesh.points, options);
   else surface.mesh = extract(source.function, options, progress);
   if (is_shown && surface.mesh.triangles.empty()) surface.extracted = extract(source.function, options, progress);
@@ -97,16 +96,16 @@ internal::Surface_to_register make_surface_to_register(const Surface_options& op
   return surface;
 }
 
-internal::Surface_to_register make_surface_of_any_scale(Surface_options options, bool is_shown, Progress& progress) {
-  read_data_once(options.source, progress);
+internal::Surface_to_register make_surface_of_any_scale(Source_options options, bool is_shown, Progress& progress) {
+  read_data_once(options, progress);
   auto surface = make_surface_to_register(options, is_shown, progress);
-  if (options.source.kind != Source_kind::FIT || options.source.fit.scale) return surface;
+  if (options.kind != Source_kind::FIT || options.fit.scale) return surface;
   std::vector<Point> points = surface.mesh.points;
-  if (options.source.transformation)
-    for (Point& p : points) p = options.source.transformation->inverse()(p);
+  if (options.transformation)
+    for (Point& p : points) p = options.transformation->inverse()(p);
   surface.spacing = internal::mean_spacing(in_threads, points);
   surface.at_scale = [options, is_shown, &progress](double scale) mutable {
-    options.source.fit.scale = scale;
+    options.fit.scale = scale;
     auto result = make_surface_to_register(options, is_shown, progress);
     progress.begin("looking for the map");
     return result;

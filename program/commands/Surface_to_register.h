@@ -3,7 +3,7 @@
 #ifndef EQUIAFFINE_PROGRAM_COMMANDS_SURFACE_TO_REGISTER_H
 #define EQUIAFFINE_PROGRAM_COMMANDS_SURFACE_TO_REGISTER_H
 
-#include "request/options.h"
+#include "request/Request.h"
 #include "system/kernel.h"
 #include "system/progress.h"
 #include <equiaffine/function/Any_function_3.h>
@@ -19,7 +19,7 @@
 namespace equiaffine {
 
 /// Whether the triangles of a file are the surface, and no level set of a function.
-bool is_mesh_itself(const Surface_options& options);
+bool is_mesh_itself(const Source_options& source);
 
 /// The origin of the derivatives of a source.
 internal::Surface_origin origin_of_source(const Source_options& source);
@@ -29,11 +29,11 @@ void read_data_once(Source_options& source, Progress& progress);
 
 /// Makes the source and its surface. `is_shown` says whether faces are needed. Throws `Input_error`, also if there is
 /// no surface.
-internal::Surface_to_register make_surface_to_register(const Surface_options& options, bool is_shown,
+internal::Surface_to_register make_surface_to_register(const Source_options& options, bool is_shown,
                                                        Progress& progress);
 
 /// The same for a surface that is moved onto another one: fits whose scale the data choose can be made at other scales.
-internal::Surface_to_register make_surface_of_any_scale(Surface_options options, bool is_shown, Progress& progress);
+internal::Surface_to_register make_surface_of_any_scale(Source_options options, bool is_shown, Progress& progress);
 
 /// The distances of points from a surface; NaN where they are not known.
 using Distances_of_points = std::function<std::vector<double>(const std::vector<Kernel::Point_3>&)>;

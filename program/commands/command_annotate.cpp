@@ -31,7 +31,7 @@ Annotation_statistics make_statistics(const std::string& source, const Indexed_t
   return statistics;
 }
 
-Description make_description(const Annotate_options& options, const Annotation_statistics& statistics,
+Description make_description(const Request& options, const Annotation_statistics& statistics,
                              const Description& fit) {
   Description description = {{"Vertices of", statistics.source}};
   if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
@@ -44,7 +44,7 @@ Description make_description(const Annotate_options& options, const Annotation_s
   return description;
 }
 
-Outputs outputs_of(const Annotate_options& options) {
+Outputs outputs_of_annotation(const Request& options) {
   check_vertices_output(options.output);
   check_display_outputs(options.display);
   if (options.stats) check_statistics_output(*options.stats);
@@ -53,24 +53,24 @@ Outputs outputs_of(const Annotate_options& options) {
   return outputs;
 }
 
-void check_has_faces(const Annotate_options& options, const std::string& name,
+void check_has_faces(const Request& options, const std::string& name,
                      const Indexed_triangle_mesh_3<Kernel>& mesh) {
   if (options.display.html && mesh.triangles.empty())
     throw Input_error("cannot show '" + name + "': it has no faces; use --png instead of --html, or show the surface " +
-                      "through the points by 'equiaffine mesh --fit " + options.mesh + " -o OUT.ply --html PAGE.html'");
+                      "through the points by 'equiaffine mesh --fit " + options.input + " -o OUT.ply --html PAGE.html'");
 }
 
 } // namespace
 
-void run_annotate(const Annotate_options& options, std::ostream& out, Progress& progress) {
-  Outputs outputs = outputs_of(options);
+void run_annotate(const Request& options, std::ostream& out, Progress& progress) {
+  Outputs outputs = outputs_of_annotation(options);
   progress.begin("reading the vertices");
-  const std::string name = options.mesh == "-" ? "standard input" : name_of_file(options.mesh);
-  const Point_table_3<Kernel> table = read_vertices(options.mesh);
+  const std::string name = options.input == "-" ? "standard input" : name_of_file(options.input);
+  const Point_table_3<Kernel> table = read_vertices(options.input);
   check_has_faces(options, name, table.mesh);
   const Stopwatch stopwatch;
   progress.begin("fitting polynomials");
-  const Structures structures = fit_vertices(table, options.fit, options.orientation);
+  const Structures structures = fit_vertices(table, options.source.fit, options.orientation);
   const Estimates estimates = estimates_of(structures);
   Annotation_statistics statistics = make_statistics(name, table.mesh, structures, *estimates.fit);
   Vertex_attributes attributes = attributes_of(structures, options.attributes);
@@ -93,7 +93,7 @@ void run_annotate(const Annotate_options& options, std::ostream& out, Progress& 
   progress.end();
   outputs.commit();
   warn_of_opposed_normals(table, progress);
-  warn_of_doubt(statistics.fit, options.fit, has_affine_curvatures(options.attributes, options.estimates), true,
+  warn_of_doubt(statistics.fit, options.source.fit, has_affine_curvatures(options.attributes, options.estimates), true,
                 progress);
   if (outputs.use_standard_output()) return;
   out << summary(statistics);

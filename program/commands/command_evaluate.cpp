@@ -42,7 +42,7 @@ Mesh_format output_format(const std::string& path) {
 
 } // namespace
 
-Vertex_attributes evaluate_points(const Evaluate_options& options, const Source& source,
+Vertex_attributes evaluate_points(const Request& options, const Source& source,
                                   std::span<const Kernel::Point_3> points, Progress& progress) {
   progress.begin("computing attributes");
   Vertex_attributes attributes =
@@ -53,7 +53,7 @@ Vertex_attributes evaluate_points(const Evaluate_options& options, const Source&
   return attributes;
 }
 
-void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& progress) {
+void run_evaluate(const Request& options, std::ostream& out, Progress& progress) {
   const Mesh_format format = output_format(options.output);
   Output_file output(options.output);
   progress.begin("reading the points");
@@ -80,12 +80,12 @@ void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& 
   report_written(out, {&output, 1});
 }
 
-void run_sample(const Sample_options& options, std::ostream& out, Progress& progress) {
+void run_sample(const Request& options, std::ostream& out, Progress& progress) {
   check_volume_output(options.output);
   Output_file output(options.output);
   const Volume_3<Kernel> volume = sample_source(options.source, progress);
   progress.begin("writing");
-  write_volume(output, volume, options.as_float);
+  write_volume(output, volume, options.samples_are_float);
   progress.end();
   output.commit();
   const auto [nx, ny, nz] = volume.lattice.size();

@@ -62,11 +62,11 @@ private:
 #endif
 };
 
-Statistics make_statistics(const Mesh_options& options, const Annotated_surface& surface, const Source& source,
+Statistics make_statistics(const Request& options, const Annotated_surface& surface, const Source& source,
                            const Mesh_topology& topology) {
   Statistics statistics;
   statistics.source = describe(options.source);
-  statistics.isovalue = options.isovalue;
+  statistics.isovalue = options.source.level;
   statistics.vertices = surface.mesh.points.size();
   statistics.faces = surface.mesh.triangles.size();
   statistics.topology = topology;
@@ -99,8 +99,8 @@ std::string text_of(const CGAL::Aff_transformation_3<Kernel>& map) {
   return text;
 }
 
-Description make_description(const Mesh_options& options, const Statistics& statistics, const Description& fit) {
-  Description description = {{"Level set f =", number_text(options.isovalue)}, {"of", statistics.source}};
+Description make_description(const Request& options, const Statistics& statistics, const Description& fit) {
+  Description description = {{"Level set f =", number_text(options.source.level)}, {"of", statistics.source}};
   for (const auto& [name, value] : options.source.constants)
     description.emplace_back("with " + name + " =", number_text(value));
   if (const auto& map = options.source.transformation) {
@@ -123,7 +123,7 @@ std::string summary(const Parabolic_curves_3<Kernel>& curves) {
   return text + '\n';
 }
 
-Outputs outputs_of(const Mesh_options& options) {
+Outputs outputs_of_mesh(const Request& options) {
   check_surface_output(options.output);
   check_display_outputs(options.display);
   if (options.curves) check_curves_output(*options.curves);
@@ -135,13 +135,13 @@ Outputs outputs_of(const Mesh_options& options) {
 }
 
 /// Whether a single file of vertices is all that needs the attributes, so that nobody has to keep them.
-bool are_attributes_only_written(const Mesh_options& options) {
+bool are_attributes_only_written(const Request& options) {
   return is_written_in_parts(options.output) && options.source.kind != Source_kind::FIT &&
          !options.source.estimates_errors && !options.display.shows_something() && !options.curves;
 }
 
 /// Computes the attributes of a surface, and writes those of some vertices while those of the next ones are computed.
-void write_computed_attributes(Output_file& file, const Source& source, const Mesh_options& options,
+void write_computed_attributes(Output_file& file, const Source& source, const Request& options,
                                Annotated_surface& surface) {
   constexpr std::size_t vertices_of_block = std::size_t(1) << 19;
   const std::span<const Kernel::Point_3> points(surface.mesh.points);
@@ -164,8 +164,8 @@ void write_computed_attributes(Output_file& file, const Source& source, const Me
 
 } // namespace
 
-void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress) {
-  Outputs outputs = outputs_of(options);
+void run_mesh(const Request& options, std::ostream& out, Progress& progress) {
+  Outputs outputs = outputs_of_mesh(options);
   check_memory(options);
   const bool are_only_written = are_attributes_only_written(options);
   auto [source, surface, source_seconds] =

@@ -22,19 +22,13 @@ namespace {
 
 using Map = CGAL::Aff_transformation_3<Kernel>;
 
-Outputs outputs_of(const Register_options& options) {
+Outputs outputs_of_maps(const Request& options) {
   check_maps_output(options.output);
   check_display_outputs(options.display);
   if (options.moved) check_surface_output(*options.moved);
   Outputs outputs(options.output, options.display);
   outputs.add(Output_kind::MOVED, options.moved);
   return outputs;
-}
-
-Outputs outputs_of(const Symmetries_options& options) {
-  check_maps_output(options.output);
-  check_display_outputs(options.display);
-  return Outputs(options.output, options.display);
 }
 
 /// The distances of points from the moved source, or the source as it is if there is no map, and from the target.
@@ -48,8 +42,8 @@ std::array<Distances_of_points, 2> distances_from_surfaces(const internal::Regis
 
 } // namespace
 
-void run_register(const Register_options& options, std::ostream& out, Progress& progress) {
-  Outputs outputs = outputs_of(options);
+void run_register(const Request& options, std::ostream& out, Progress& progress) {
+  Outputs outputs = outputs_of_maps(options);
   const bool is_shown = options.display.shows_something();
   const internal::Registration_of_surfaces found = find_map(options, progress);
   const Registration_report report = report_of(options, found);
@@ -77,8 +71,8 @@ void run_register(const Register_options& options, std::ostream& out, Progress& 
   outputs.report(out);
 }
 
-void run_symmetries(const Symmetries_options& options, std::ostream& out, Progress& progress) {
-  Outputs outputs = outputs_of(options);
+void run_symmetries(const Request& options, std::ostream& out, Progress& progress) {
+  Outputs outputs = outputs_of_maps(options);
   Found_symmetries found = find_symmetries(options, progress);
   const Symmetries_report report = report_of(options, found);
   progress.begin("writing");

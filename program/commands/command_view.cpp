@@ -38,13 +38,13 @@ void check_arrows(const std::string& arrows, const Vertex_attributes& attributes
 
 } // namespace
 
-Outputs show(const Annotated_mesh_3<Kernel>& surface, const std::string& name, const View_options& options) {
+Outputs show(const Annotated_mesh_3<Kernel>& surface, const std::string& name, const Request& options) {
   check_display_outputs(options.display);
   Outputs outputs;
   outputs.add_displays(options.display);
   if (options.display.html && surface.mesh.triangles.empty())
     throw Input_error("cannot show '" + name +
-                      "': it has no faces; --png draws the points, and 'equiaffine mesh --fit " + options.mesh +
+                      "': it has no faces; --png draws the points, and 'equiaffine mesh --fit " + options.input +
                       " -o OUT.ply --html PAGE.html' shows the surface through the points");
   check_color(options.display.color, surface.attributes);
   check_arrows(options.display.arrows, surface.attributes);
@@ -55,15 +55,15 @@ Outputs show(const Annotated_mesh_3<Kernel>& surface, const std::string& name, c
   description.insert(description.end(), fit.begin(), fit.end());
   write_displays(
       outputs, surface.mesh, surface.attributes, options.display,
-      {page_title(options.mesh, "Surface") + label_suffix(fit), description, notes_of(fit), label_suffix(fit)});
+      {page_title(options.input, "Surface") + label_suffix(fit), description, notes_of(fit), label_suffix(fit)});
   outputs.commit();
   return outputs;
 }
 
-void run_view(const View_options& options, std::ostream& out) {
+void run_view(const Request& options, std::ostream& out) {
   check_display_outputs(options.display);
-  const std::string name = options.mesh == "-" ? "standard input" : name_of_file(options.mesh);
-  const Outputs outputs = show(read_mesh(options.mesh), name, options);
+  const std::string name = options.input == "-" ? "standard input" : name_of_file(options.input);
+  const Outputs outputs = show(read_mesh(options.input), name, options);
   if (!outputs.use_standard_output()) outputs.report(out);
 }
 

@@ -4,7 +4,7 @@
 #define EQUIAFFINE_PROGRAM_COMMANDS_COMMANDS_H
 
 #include "output/Outputs.h"
-#include "request/options.h"
+#include "request/Request.h"
 #include "source/source.h"
 #include "system/progress.h"
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
@@ -30,21 +30,21 @@ int run(const std::vector<std::string>& arguments, const Streams& streams);
 
 // Each command writes its outputs, all of them or none, and on `out` a summary unless an output goes there. They throw
 // Input_error.
-void run_mesh(const Mesh_options& options, std::ostream& out, Progress& progress);
-void run_evaluate(const Evaluate_options& options, std::ostream& out, Progress& progress);
-void run_sample(const Sample_options& options, std::ostream& out, Progress& progress);
-void run_annotate(const Annotate_options& options, std::ostream& out, Progress& progress);
-void run_register(const Register_options& options, std::ostream& out, Progress& progress);
-void run_symmetries(const Symmetries_options& options, std::ostream& out, Progress& progress);
-void run_view(const View_options& options, std::ostream& out);
+void run_mesh(const Request& options, std::ostream& out, Progress& progress);
+void run_evaluate(const Request& options, std::ostream& out, Progress& progress);
+void run_sample(const Request& options, std::ostream& out, Progress& progress);
+void run_annotate(const Request& options, std::ostream& out, Progress& progress);
+void run_register(const Request& options, std::ostream& out, Progress& progress);
+void run_symmetries(const Request& options, std::ostream& out, Progress& progress);
+void run_view(const Request& options, std::ostream& out);
 
 /// The attributes of a source at points, and the estimates that are asked for. Points at infinity are OUTSIDE.
-Vertex_attributes evaluate_points(const Evaluate_options& options, const Source& source,
+Vertex_attributes evaluate_points(const Request& options, const Source& source,
                                   std::span<const Kernel::Point_3> points, Progress& progress);
 
 /// Writes the page and the picture that are asked for of a mesh of that name, and returns them. Throws `Input_error`, also
 /// for a mesh without faces, and for an attribute that it has not.
-Outputs show(const Annotated_mesh_3<Kernel>& surface, const std::string& name, const View_options& options);
+Outputs show(const Annotated_mesh_3<Kernel>& surface, const std::string& name, const Request& options);
 
 } // namespace equiaffine
 

@@ -3,7 +3,7 @@
 
 #include "commands/Surface_to_register.h"
 #include "output/maps.h"
-#include "request/options.h"
+#include "request/Request.h"
 #include "source/read_mesh.h"
 #include "source/source.h"
 #include "system/files.h"
@@ -21,7 +21,7 @@
 
 namespace equiaffine {
 
-internal::Registration_of_surfaces find_map(const Register_options& options, Progress& progress) {
+internal::Registration_of_surfaces find_map(const Request& options, Progress& progress) {
   const bool is_shown = options.display.shows_something();
   auto source = make_surface_of_any_scale(options.source, is_shown, progress);
   auto target = make_surface_of_any_scale(options.target, is_shown, progress);
@@ -30,8 +30,8 @@ internal::Registration_of_surfaces find_map(const Register_options& options, Pro
                                             std::move(target), options.registration);
 }
 
-Registration_report report_of(const Register_options& options, const internal::Registration_of_surfaces& found) {
-  return {describe(options.source.source), describe(options.target.source), found.result, options.lists_maps};
+Registration_report report_of(const Request& options, const internal::Registration_of_surfaces& found) {
+  return {describe(options.source), describe(options.target), found.result, options.lists_maps};
 }
 
 namespace {
@@ -56,29 +56,29 @@ Annotated_mesh_3<Kernel> Found_symmetries::shown() const {
                                  level_set ? distances_from(level_set->function) : distances_from(mesh));
 }
 
-Found_symmetries find_symmetries(const Symmetries_options& options, Progress& progress) {
+Found_symmetries find_symmetries(const Request& options, Progress& progress) {
   Found_symmetries found;
-  Surface_options surface = options.surface;
-  read_data_once(surface.source, progress);
-  if (is_mesh_itself(surface)) found.mesh = read_triangles(surface.source, progress);
-  const bool is_shown = surface.source.kind == Source_kind::FIT || options.display.shows_something();
+  Source_options source = options.source;
+  read_data_once(source, progress);
+  if (is_mesh_itself(source)) found.mesh = read_triangles(source, progress);
+  const bool is_shown = source.kind == Source_kind::FIT || options.display.shows_something();
   const auto make_level_set = [&] {
-    auto level_set = make_surface_to_register(surface, is_shown, progress);
+    auto level_set = make_surface_to_register(source, is_shown, progress);
     progress.begin("looking for symmetries");
     return level_set;
   };
   progress.begin("looking for symmetries");
   auto [result, level_set] =
       internal::symmetries_of_surface(runs_in_threads<CGAL::Parallel_if_available_tag>(), found.mesh,
-                                      origin_of_source(surface.source), make_level_set, options.symmetries);
+                                      origin_of_source(source), make_level_set, options.symmetries);
   found.symmetries = std::move(result);
   found.level_set = std::move(level_set);
   if (found.level_set) found.mesh = found.level_set->shown();
   return found;
 }
 
-Symmetries_report report_of(const Symmetries_options& options, const Found_symmetries& found) {
-  Symmetries_report report = {found.name(options.surface.source), found.symmetries, options.symmetries.complete,
+Symmetries_report report_of(const Request& options, const Found_symmetries& found) {
+  Symmetries_report report = {found.name(options.source), found.symmetries, options.symmetries.complete,
                               keeps_angles(found.symmetries.kind) && !keeps_angles(options.symmetries.kind)};
   if (!std::isfinite(report.symmetries.maps.front().rms))
     throw Input_error("nothing is known of the symmetries of " + report.source +

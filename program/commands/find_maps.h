@@ -5,7 +5,7 @@
 
 #include "commands/Surface_to_register.h"
 #include "output/maps.h"
-#include "request/options.h"
+#include "request/Request.h"
 #include "system/progress.h"
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 #include <equiaffine/registration/register_surfaces.h>
@@ -16,10 +16,10 @@
 namespace equiaffine {
 
 /// Makes the surfaces, and finds the map between them. Throws `Input_error`.
-internal::Registration_of_surfaces find_map(const Register_options& options, Progress& progress);
+internal::Registration_of_surfaces find_map(const Request& options, Progress& progress);
 
 /// Returns the report on it.
-Registration_report report_of(const Register_options& options, const internal::Registration_of_surfaces& found);
+Registration_report report_of(const Request& options, const internal::Registration_of_surfaces& found);
 
 /// A surface whose symmetries are sought, and what was found.
 struct Found_symmetries {
@@ -35,10 +35,10 @@ struct Found_symmetries {
 };
 
 /// Makes the surface, and finds its symmetries. Throws `Input_error`.
-Found_symmetries find_symmetries(const Symmetries_options& options, Progress& progress);
+Found_symmetries find_symmetries(const Request& options, Progress& progress);
 
 /// Returns the report on them. Throws `Input_error` if nothing is known of the surface.
-Symmetries_report report_of(const Symmetries_options& options, const Found_symmetries& found);
+Symmetries_report report_of(const Request& options, const Found_symmetries& found);
 
 } // namespace equiaffine
 

@@ -2,7 +2,7 @@
 #include "commands/make_surface.h"
 
 #include "commands/extract_surface.h"
-#include "request/options.h"
+#include "request/Request.h"
 #include "source/evaluate_source.h"
 #include "source/source.h"
 #include "source/source_function.h"
@@ -25,7 +25,6 @@
 #include <sstream>
 #include <string>
 #include <utility>
-#include <variant>
 
 namespace equiaffine {
 
@@ -73,10 +72,9 @@ void announce_duration_on_grid(const std::string& stage, const Source_options& o
 
 /// Samples the surface; annotated_surface() adds attributes. The mesh is made from f whatever the orientation is, which
 /// then only decides to which side triangles are turned.
-Annotated_surface sample(const Source_function& function, const Mesh_options& options,
-                         const Marching_cubes_options& method, Progress& progress) {
+Annotated_surface sample_on_grid(const Source_function& function, const Request& options, Progress& progress) {
   const auto extract = [&](const Source_options& source) {
-    return extract_surface(function, options.isovalue, source, method.vertices);
+    return extract_surface(function, options.source.level, source, options.marching_cubes.vertices);
   };
   if (options.source.derivatives == Derivatives::JETS) // splines have the grid of their samples
     announce_duration_on_grid(extracting, options.source, progress, extract);
@@ -84,20 +82,19 @@ Annotated_surface sample(const Source_function& function, const Mesh_options& op
   Annotated_surface surface;
   surface.mesh = extract(options.source);
   if (surface.mesh.triangles.empty())
-    fail_without_surface(function, options.source, options.isovalue,
+    fail_without_surface(function, options.source, options.source.level,
                          {"box", "a finer --resolution", surface.mesh.repairs.vertices_at_poles > 0});
   return surface;
 }
 
-Annotated_surface sample(const Source_function& function, const Mesh_options& options, const Delaunay_options& method,
-                         Progress& progress) {
-  const Any_function_3 level_set = any_level_set(function, options.isovalue);
+Annotated_surface sample_by_delaunay(const Source_function& function, const Request& options, Progress& progress) {
+  const Any_function_3 level_set = any_level_set(function, options.source.level);
   const CGAL::Bbox_3 box = level_set.bbox();
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
   check_box_of_delaunay_surface(box);
-  const Clip_domain_3 domain = clip_domain(method.clip, box);
+  const Clip_domain_3 domain = clip_domain(options.delaunay.clip, box);
   check_box_of_delaunay_surface(domain.bbox());
-  Delaunay_options delaunay = method;
+  Delaunay_options delaunay = options.delaunay;
   if (delaunay.radius) delaunay.radius = std::min(*delaunay.radius, diagonal); // a larger bound would mean the same
   delaunay = delaunay.completed(box);
   const double radius = *delaunay.radius, distance = *delaunay.distance;
@@ -107,17 +104,17 @@ Annotated_surface sample(const Source_function& function, const Mesh_options& op
   announce_duration(extracting, "a larger --radius or --distance", fineness, false, progress, [&](double coarse) {
     const double factor = fineness / coarse;
     Delaunay_options coarser = delaunay;
+    coarser.parabolic_curves = false;
     coarser.radius = std::min(factor * radius, diagonal);
     coarser.distance = std::min(factor * factor * distance, diagonal);
     delaunay_surface(level_set, coarser);
   });
   progress.begin(extracting);
-  delaunay.parabolic_curves = options.curves.has_value();
   auto mesh = delaunay_surface(level_set, delaunay);
   if (mesh.triangles.empty())
-    fail_without_surface(function, options.source, options.isovalue,
+    fail_without_surface(function, options.source, options.source.level,
                          {domain.is_ball() ? "ball" : "box", mesh.is_certified ? "" : "a smaller --radius",
-                          changes_sign_at_poles_only(function, options.isovalue), mesh.is_certified});
+                          changes_sign_at_poles_only(function, options.source.level), mesh.is_certified});
   Annotated_surface surface;
   surface.completeness = {mesh.is_certified, std::move(mesh.undecided_boxes)};
   if (options.curves) surface.curves = std::move(mesh.parabolic_curves);
@@ -131,19 +128,19 @@ struct Remesh {
   std::string reason_against;
 };
 
-Remesh remesh_of_source(Source& source, const Mesh_options& options, Progress& progress) {
-  const auto* const method = std::get_if<Remesh_options>(&options.method);
-  if (!method && (!options.remeshes_faces || source.data.triangles.empty())) return {};
+Remesh remesh_of_source(Source& source, const Request& options, Progress& progress) {
+  const bool is_asked_for = options.method == Mesh_method::REMESH;
+  if (!is_asked_for && (!options.remeshes_faces || source.data.triangles.empty())) return {};
   try {
-    return {remesh_fit(source, options.source, method ? *method : Remesh_options(), progress), ""};
+    return {remesh_fit(source, options.source, options.remesh, progress), ""};
   } catch (const Input_error& error) {
-    if (method) throw;
+    if (is_asked_for) throw;
     return {std::nullopt, error.what()};
   }
 }
 
 /// Samples the surface by the method that was asked for, if it is no remesh.
-Annotated_surface sample(const Source_function& function, const Mesh_options& options, Remesh remesh,
+Annotated_surface sample(const Source_function& function, const Request& options, Remesh remesh,
                          Progress& progress) {
   if (remesh.fit) {
     Annotated_surface surface;
@@ -152,9 +149,8 @@ Annotated_surface sample(const Source_function& function, const Mesh_options& op
     surface.remesh = remesh.fit->statistics;
     return surface;
   }
-  const auto* const grid = std::get_if<Marching_cubes_options>(&options.method);
-  Annotated_surface surface = grid ? sample(function, options, *grid, progress)
-                                   : sample(function, options, std::get<Delaunay_options>(options.method), progress);
+  Annotated_surface surface = options.method == Mesh_method::DELAUNAY ? sample_by_delaunay(function, options, progress)
+                                                                      : sample_on_grid(function, options, progress);
   surface.reason_against_remesh = std::move(remesh.reason_against);
   return surface;
 }
@@ -168,14 +164,14 @@ double longest_step(const CGAL::Bbox_3& box, const Source_options& options) {
 }
 
 /// Samples the surface and computes its attributes, unless that is done later.
-Annotated_surface annotated_surface(const Source& source, const Mesh_options& options, Remesh remesh,
+Annotated_surface annotated_surface(const Source& source, const Request& options, Remesh remesh,
                                     Attribute_time time, Progress& progress) {
   Annotated_surface surface = sample(source.function, options, std::move(remesh), progress);
   if (source.fit && !surface.remesh) {
     remove_small_fragments(surface.mesh, *source.fit, options.source);
     if (surface.mesh.triangles.empty())
-      fail_without_surface(source.function, options.source, options.isovalue, {"box", "a finer --resolution", false});
-    if (std::holds_alternative<Marching_cubes_options>(options.method))
+      fail_without_surface(source.function, options.source, options.source.level, {"box", "a finer --resolution", false});
+    if (options.method == Mesh_method::MARCHING_CUBES)
       surface.close_sheets = source.fit->close_sheets(longest_step(source.fit->bbox(), options.source));
   }
   if (options.largest) surface.components_left_out = keep_largest(surface.mesh, *options.largest, surface.outcomes);
@@ -196,20 +192,20 @@ Annotated_surface annotated_surface(const Source& source, const Mesh_options& op
   if (options.curves && !surface.curves) {
     progress.begin("finding parabolic curves");
     surface.curves = parabolic_curves<CGAL::Parallel_if_available_tag>(
-        surface.mesh, any_level_set(source.function, options.isovalue, options.orientation));
+        surface.mesh, any_level_set(source.function, options.source.level, options.orientation));
   }
   return surface;
 }
 
 } // namespace
 
-void for_each_attribute_block(const Source& source, const Mesh_options& options, Annotated_surface& surface,
+void for_each_attribute_block(const Source& source, const Request& options, Annotated_surface& surface,
                               std::size_t vertices_of_block,
                               const std::function<void(std::size_t, Vertex_attributes&&)>& visit) {
   const std::span<const Kernel::Point_3> points(surface.mesh.points);
   const std::span<const Point_status> sampled_status(surface.mesh.vertex_status);
   surface.max_distance =
-      max_distance_to_source(source.function, options.isovalue, options.orientation, points, sampled_status);
+      max_distance_to_source(source.function, options.source.level, options.orientation, points, sampled_status);
   Attribute_selection selection = options.attributes;
   selection.has_status = true;
   for (std::size_t first = 0; first < points.size(); first += vertices_of_block) {
@@ -225,13 +221,13 @@ void for_each_attribute_block(const Source& source, const Mesh_options& options,
   surface.mesh.function_evaluations += 3 * points.size();
 }
 
-void check_memory(const Mesh_options& options) {
-  if (options.source.derivatives == Derivatives::JETS && std::holds_alternative<Marching_cubes_options>(options.method))
+void check_memory(const Request& options) {
+  if (options.source.derivatives == Derivatives::JETS && options.method == Mesh_method::MARCHING_CUBES)
     check_memory_of_surface(options.source.resolution.value_or(default_resolution(options.source.kind)),
                             options.source.memory_use);
 }
 
-void warn_of(const Annotated_surface& surface, const Source& source, const Mesh_options& options, Progress& progress) {
+void warn_of(const Annotated_surface& surface, const Source& source, const Request& options, Progress& progress) {
   if (!options.attributes.columns.empty())
     warn_of_outside(options.source, source, surface.status[std::size_t(Point_status::OUTSIDE)],
                     surface.mesh.points.size(), "vertices", progress);
@@ -247,14 +243,13 @@ void warn_of(const Annotated_surface& surface, const Source& source, const Mesh_
                   has_affine_curvatures(options.attributes, options.estimates), false, progress);
 }
 
-Annotated_surface surface_of(const Source& source, const Mesh_options& options, Progress& progress) {
+Annotated_surface surface_of(const Source& source, const Request& options, Progress& progress) {
   return annotated_surface(source, options, {}, Attribute_time::WITH_SURFACE, progress);
 }
 
-Made_surface make_surface(const Mesh_options& options, Progress& progress, Attribute_time time) {
+Made_surface make_surface(const Request& options, Progress& progress, Attribute_time time) {
   const Stopwatch stopwatch;
-  const auto* const delaunay = std::get_if<Delaunay_options>(&options.method);
-  Source source = make_source(options.source, progress, delaunay ? delaunay->radius.value_or(0) : 0);
+  Source source = make_source(options.source, progress, options.delaunay.radius.value_or(0));
   const double seconds = stopwatch.seconds();
   Remesh remesh = remesh_of_source(source, options, progress);
   Annotated_surface surface = annotated_surface(source, options, std::move(remesh), time, progress);

@@ -4,7 +4,7 @@
 
 #include "attributes/estimates.h"
 #include "output/statistics.h"
-#include "request/options.h"
+#include "request/Request.h"
 #include "source/source.h"
 #include "system/kernel.h"
 #include "system/progress.h"
@@ -48,24 +48,24 @@ enum class Attribute_time { WITH_SURFACE, LATER };
 
 /// Makes the surface. Where the data choose the scale of a fit, the source may be one at a smaller scale: see
 /// doc/program.md on `--method remesh`.
-Made_surface make_surface(const Mesh_options& options, Progress& progress,
+Made_surface make_surface(const Request& options, Progress& progress,
                           Attribute_time time = Attribute_time::WITH_SURFACE);
 
 /// Computes distances from the surface, and the attributes that files have, for blocks of vertices one after the other;
 /// the statistics count the status in any case. Calls visit(first, attributes) with the number of the first vertex of each
 /// block.
-void for_each_attribute_block(const Source& source, const Mesh_options& options, Annotated_surface& surface,
+void for_each_attribute_block(const Source& source, const Request& options, Annotated_surface& surface,
                               std::size_t vertices_of_block,
                               const std::function<void(std::size_t, Vertex_attributes&&)>& visit);
 
 /// Throws `Input_error` if the grid of a surface needs more memory than it may.
-void check_memory(const Mesh_options& options);
+void check_memory(const Request& options);
 
 /// Warns of what the user of a surface would not expect.
-void warn_of(const Annotated_surface& surface, const Source& source, const Mesh_options& options, Progress& progress);
+void warn_of(const Annotated_surface& surface, const Source& source, const Request& options, Progress& progress);
 
 /// Makes a surface of a source that was made before.
-Annotated_surface surface_of(const Source& source, const Mesh_options& options, Progress& progress);
+Annotated_surface surface_of(const Source& source, const Request& options, Progress& progress);
 
 /// The data of a fit, remeshed and moved onto it.
 struct Remeshed_fit {

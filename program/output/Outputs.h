@@ -3,7 +3,7 @@
 #ifndef EQUIAFFINE_PROGRAM_OUTPUT_OUTPUTS_H
 #define EQUIAFFINE_PROGRAM_OUTPUT_OUTPUTS_H
 
-#include "request/options.h"
+#include "request/Request.h"
 #include "system/files.h"
 #include "system/kernel.h"
 #include "system/progress.h"

@@ -5,7 +5,7 @@
 
 #include "output/Outputs.h"
 #include "picture/Surface_paint.h"
-#include "request/options.h"
+#include "request/Request.h"
 #include "system/kernel.h"
 #include <equiaffine/attributes/Fit_statistics.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>

@@ -50,6 +50,7 @@ struct Source_options {
   Source_kind kind = Source_kind::FUNCTION;
   std::string text; ///< the expression, or the path of the volume, mesh or points
   std::map<std::string, double> constants;
+  double level = 0; ///< the surface is the level set f = level
   std::optional<CGAL::Bbox_3> box;
   std::optional<std::array<std::size_t, 3>> resolution;
   Derivatives derivatives = Derivatives::JETS;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef EQUIAFFINE_PROGRAM_REQUEST_OPTIONS_H
+#define EQUIAFFINE_PROGRAM_REQUEST_OPTIONS_H
+
+#include "request/source_options.h"
+#include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/delaunay/Delaunay_options.h>
+#include <equiaffine/display/color_map.h>
+#include <equiaffine/function/Level_set_traits_3.h>
+#include <equiaffine/geometry/reference_estimators.h>
+#include <equiaffine/marching_cubes/Marching_cubes_options.h>
+#include <equiaffine/registration/Registration_options.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace equiaffine {
+
+/// The page and the picture that are asked for, and their first view.
+struct Display_options {
+  std::optional<std::string> html, png;
+  std::string color;                             ///< an attribute, `status`, `plain`, or empty
+  std::optional<std::array<double, 3>> up;       ///< guessed from the shape if there is none
+  std::optional<std::array<double, 2>> range;    ///< the numbers that have the end colors
+  std::optional<std::string> range_of;           ///< a page or mesh whose colors numbers get
+  std::optional<Color_scale> scale;              ///< of colors, if it is not to be the one that suits the numbers
+  std::array<std::size_t, 2> size = {1000, 800}; ///< of the picture, in pixels
+  std::string arrows;                            ///< a vector among the attributes, or empty; for the picture
+
+  bool shows_something() const { return html || png; }
+};
+
+/// The commands of the program, as bits: an option of several commands has their sum.
+enum Command : unsigned { MESH = 1, EVALUATE = 2, SAMPLE = 4, VIEW = 8, ANNOTATE = 16, REGISTER = 32, SYMMETRIES = 64 };
+
+/// The ways to make a mesh.
+enum class Mesh_method { MARCHING_CUBES, DELAUNAY, REMESH };
+
+/// What was asked for: a command, and the options of all commands, of which each takes its part.
+struct Request {
+  Command command = MESH;
+  std::optional<std::string> information;     ///< help or the version, if that was asked for instead
+  std::optional<std::size_t> threads, memory; ///< the bytes that may be resident
+  Source_options source, target;              ///< `register` has a target
+  std::string input;                          ///< the file that `view` or `annotate` reads
+  std::string points;                         ///< the file with the points at which `evaluate` evaluates
+  Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT;
+  Mesh_method method = Mesh_method::MARCHING_CUBES;
+  Marching_cubes_options marching_cubes; ///< the resolution is the source's
+  Delaunay_options delaunay;
+  Remesh_options remesh;
+  std::optional<std::size_t> largest; ///< so many connected components of the greatest areas are kept, or all
+  bool remeshes_faces = false; ///< whether the faces of a fit that form a surface are remeshed without the `method`
+  Attribute_selection attributes = select_attributes("basic");
+  std::vector<std::string> estimates; ///< the columns of errors and of noise that are written
+  Estimator estimator = Estimator::COMPACT;
+  Registration_options registration; ///< but the fits, which are those of the sources
+  Symmetry_options symmetries;       ///< but the fit
+  bool lists_maps = false; ///< whether `register` writes all maps that it finds, and not the best one alone
+  bool samples_are_float = false;
+  std::string output;
+  std::optional<std::string> moved, curves, stats;
+  Display_options display;
+};
+
+} // namespace equiaffine
+
+#endif
