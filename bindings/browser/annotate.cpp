@@ -3,7 +3,7 @@
 // smaller.
 #include "module.h"
 #include <equiaffine/attributes/Attribute_selection.h>
-#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/attributes/Fit_statistics.h>
 #include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/io/read_points.h>
@@ -13,29 +13,6 @@
 #include <sstream>
 #include <string>
 #include <utility>
-#include <vector>
-
-namespace {
-
-/// The columns of structures: those of a list, then estimates of the errors.
-equiaffine::Vertex_attributes columns_of(const std::vector<equiaffine::Fitted_structure_3<double>>& structures,
-                                         const char* attributes) {
-  equiaffine::Vertex_attributes result;
-  result.status.emplace();
-  for (const auto& s : structures) result.status->push_back(s.structure.status);
-  const auto add = [&](std::string name, const auto& number_of) {
-    auto& column = result.columns.emplace_back();
-    column.name = std::move(name);
-    for (const auto& s : structures) column.values.push_back(number_of(s));
-  };
-  for (const auto& attribute : equiaffine::select_attributes(attributes).columns)
-    add(std::string(attribute.name), [&](const auto& s) { return attribute.get(s.structure); });
-  for (const auto& row : equiaffine::error_table<double>)
-    add(std::string(row.attribute) + "_error", [&](const auto& s) { return row.get(s.error); });
-  return result;
-}
-
-} // namespace
 
 /// Fits the vertices of a mesh, or points, in the bytes of a file; a negative scale lets the data choose one.
 EXPORTED int eq_annotate(const char* name, const char* bytes, int size, double scale, const char* attributes) {
@@ -48,10 +25,16 @@ EXPORTED int eq_annotate(const char* name, const char* bytes, int size, double s
       throw equiaffine::Input_error("'" + std::string(name) + "' has " + std::to_string(file.mesh.points.size()) +
                                     " points: here up to 50000 can be fitted, and any number by the program");
     const equiaffine::Fit_options options = {.scale = scale < 0 ? std::nullopt : std::optional(scale)};
-    surface.attributes = columns_of(file.mesh.triangles.empty()
-                                        ? equiaffine::fitted_structures(file.mesh.points, options)
-                                        : equiaffine::fitted_structures(file.mesh.points, file.mesh.triangles, options),
-                                    attributes);
+    auto selection = equiaffine::select_attributes(attributes);
+    selection.has_status = true;
+    const auto areas = equiaffine::selected_vertex_areas(selection, file.mesh.points, file.mesh.triangles);
+    const auto structures = file.mesh.triangles.empty()
+                                ? equiaffine::fitted_structures(file.mesh.points, options)
+                                : equiaffine::fitted_structures(file.mesh.points, file.mesh.triangles, options);
+    surface.attributes = equiaffine::attributes_of_fit(structures, selection, areas);
+    for (const auto& estimate : equiaffine::estimate_attributes())
+      if (estimate.kind == equiaffine::Estimate_kind::ERROR)
+        surface.attributes.columns.push_back(estimate.column(structures));
     static_cast<equiaffine::Indexed_triangle_mesh_3<Kernel>&>(surface.mesh) = std::move(file.mesh);
   });
 }

@@ -11,8 +11,8 @@
 template <class Traits>
 void sample(const Traits& traits, const char* attributes, const equiaffine::Marching_cubes_options& options = {}) {
   surface.mesh = equiaffine::marching_cubes(traits, options);
-  surface.attributes = equiaffine::compute_attributes(
-      traits, surface.mesh.points, equiaffine::select_attributes(attributes), surface.mesh.vertex_status);
+  surface.attributes = equiaffine::compute_attributes(traits, surface.mesh, equiaffine::select_attributes(attributes),
+                                                      surface.mesh.vertex_status);
 }
 
 #endif

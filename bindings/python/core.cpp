@@ -88,9 +88,10 @@ py::object mesh(const Words& words, const Given& given, const py::object& progre
 py::object annotate(const Words& words, Mesh data, const py::object& progress_function) {
   return run(words, progress_function, [&](Request& options, Progress& progress) {
     check_vertices(data.mesh.points, options.input);
+    const auto areas = selected_vertex_areas(options.attributes, data.mesh.points, data.mesh.triangles);
     const auto structures = fit_vertices(data, options.source.fit, options.orientation);
     const Estimates estimates = estimates_of(structures);
-    data.attributes = attributes_of(structures, options.attributes);
+    data.attributes = attributes_of_fit(structures, options.attributes, areas);
     add_estimates(estimates, options.estimates, data.attributes);
     add_errors(estimates, data.attributes);
     data.attributes.comments = comments_of(*estimates.fit);
@@ -114,7 +115,7 @@ py::object evaluate(const Words& words, const Given& given, const Mesh& at, cons
               0, points.size(), [&](std::size_t i) { values[i] = f.value(points[i]); }, 256);
         },
         source.function);
-    auto attributes = std::make_shared<Vertex_attributes>(evaluate_points(options, source, points, progress));
+    auto attributes = std::make_shared<Vertex_attributes>(evaluate_points(options, source, at.mesh, progress));
     attributes->columns.push_back({"value", std::move(values)});
     return [attributes] { return columns_of(std::move(*attributes)); };
   });

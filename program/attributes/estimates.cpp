@@ -57,7 +57,7 @@ void transform(Estimates& estimates, double factor) {
   for (auto& column : estimates.columns) {
     const auto attribute = std::find_if(attributes.begin(), attributes.end(),
                                         [&](const Estimate_attribute& a) { return a.name == column.name; });
-    const Quantity* const quantity = find_quantity(attribute->row->attribute);
+    const Quantity* const quantity = find_quantity(attribute->row->name);
     const bool is_invariant = quantity && quantity->group == "Affine" && quantity->weight < -1;
     const double multiple =
         is_invariant ? std::pow(factor, -quantity->weight / 6.) : std::numeric_limits<double>::infinity();
@@ -69,13 +69,7 @@ void transform(Estimates& estimates, double factor) {
 
 Estimates estimates_of(std::span<const Fitted_structure_3<double>> structures) {
   Estimates estimates;
-  for (const auto& attribute : estimate_attributes()) {
-    auto& column = estimates.columns.emplace_back(Vertex_attributes::Column{attribute.name, {}});
-    for (const auto& s : structures)
-      column.values.push_back(attribute.row->get(attribute.kind == Estimate_kind::ERROR   ? s.error
-                                                 : attribute.kind == Estimate_kind::NOISE ? s.noise
-                                                                                          : s.detail));
-  }
+  for (const auto& attribute : estimate_attributes()) estimates.columns.push_back(attribute.column(structures));
   estimates.fit = statistics_of_fit(structures);
   return estimates;
 }
@@ -94,7 +88,8 @@ Estimates estimates_at(const Source& source, const Source_options& options, std:
       if (!attribute.is_of_splines) continue;
       auto& column = estimates.columns.emplace_back(Vertex_attributes::Column{attribute.name, {}});
       for (const auto& error : errors)
-        column.values.push_back(attribute.row->get(Local_structure_error_3<double>{error, 0, 0, 0, 0, 0, 0, 0, 0}));
+        column.values.push_back(
+            attribute.row->error.get(Local_structure_error_3<double>{error, 0, 0, 0, 0, 0, 0, 0, 0}));
     }
   }
   if (options.transformation) transform(estimates, preimage.factor);
@@ -111,19 +106,6 @@ void add_estimates(const Estimates& estimates, std::span<const std::string> name
 
 void add_errors(const Estimates& estimates, Vertex_attributes& attributes) {
   add_estimates(estimates, error_attributes(), attributes);
-}
-
-Vertex_attributes attributes_of(std::span<const Fitted_structure_3<double>> structures,
-                                const Attribute_selection& selection) {
-  Vertex_attributes result;
-  for (const Attribute& attribute : selection.columns) {
-    auto& column = result.columns.emplace_back(Vertex_attributes::Column{std::string(attribute.name), {}});
-    for (const auto& s : structures) column.values.push_back(attribute.get(s.structure));
-  }
-  if (!selection.has_status) return result;
-  result.status.emplace();
-  for (const auto& s : structures) result.status->push_back(s.structure.status);
-  return result;
 }
 
 } // namespace equiaffine

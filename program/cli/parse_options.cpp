@@ -70,8 +70,8 @@ bool has_column(const Request& request, const std::string& name) {
 
 /// Whether there is a column whose errors are estimated.
 bool has_column_with_error(const Request& request) {
-  return std::any_of(error_table<double>.begin(), error_table<double>.end(),
-                     [&](const auto& row) { return has_column(request, std::string(row.attribute)); });
+  return std::any_of(rows_with_error.begin(), rows_with_error.end(),
+                     [&](const auto* row) { return has_column(request, std::string(row->name)); });
 }
 
 bool has_color(const Request& request, const std::string& name) {

@@ -68,12 +68,13 @@ void run_annotate(const Request& options, std::ostream& out, Progress& progress)
   const std::string name = options.input == "-" ? "standard input" : name_of_file(options.input);
   const Point_table_3<Kernel> table = read_vertices(options.input);
   check_has_faces(options, name, table.mesh);
+  const auto areas = selected_vertex_areas(options.attributes, table.mesh.points, table.mesh.triangles);
   const Stopwatch stopwatch;
   progress.begin("fitting polynomials");
   const Structures structures = fit_vertices(table, options.source.fit, options.orientation);
   const Estimates estimates = estimates_of(structures);
   Annotation_statistics statistics = make_statistics(name, table.mesh, structures, *estimates.fit);
-  Vertex_attributes attributes = attributes_of(structures, options.attributes);
+  Vertex_attributes attributes = attributes_of_fit(structures, options.attributes, areas);
   add_estimates(estimates, options.estimates, attributes);
   statistics.has_colors = have_colors(table);
   statistics.annotate_seconds = stopwatch.seconds();

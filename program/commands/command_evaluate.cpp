@@ -43,10 +43,12 @@ Mesh_format output_format(const std::string& path) {
 } // namespace
 
 Vertex_attributes evaluate_points(const Request& options, const Source& source,
-                                  std::span<const Kernel::Point_3> points, Progress& progress) {
+                                  const Indexed_triangle_mesh_3<Kernel>& at, Progress& progress) {
+  const std::vector<Kernel::Point_3>& points = at.points;
   progress.begin("computing attributes");
-  Vertex_attributes attributes =
-      attributes_of_source(source.function, options.orientation, points, options.attributes, options.estimator);
+  const auto areas = selected_vertex_areas(options.attributes, points, at.triangles);
+  Vertex_attributes attributes = attributes_of_source(source.function, options.orientation, points, options.attributes,
+                                                      options.estimator, {std::span<const Point_status>(), areas});
   if (options.source.estimates_errors)
     add_estimates(estimates_at(source, options.source, points, progress), options.estimates, attributes);
   mark_points_at_infinity(points, attributes);
@@ -60,7 +62,7 @@ void run_evaluate(const Request& options, std::ostream& out, Progress& progress)
   const Point_table_3<Kernel> table = read_points<Kernel>(options.points);
   const std::vector<Kernel::Point_3>& points = table.mesh.points;
   const Source source = make_source(options.source, progress);
-  Vertex_attributes attributes = evaluate_points(options, source, points, progress);
+  Vertex_attributes attributes = evaluate_points(options, source, table.mesh, progress);
   progress.begin("writing");
   if (format == Mesh_format::CSV) write_CSV(output.stream(), table, attributes);
   else write_PLY(output.stream(), table.mesh, merge_attributes(table.attributes, attributes));

@@ -38,9 +38,10 @@ void run_register(const Request& options, std::ostream& out, Progress& progress)
 void run_symmetries(const Request& options, std::ostream& out, Progress& progress);
 void run_view(const Request& options, std::ostream& out);
 
-/// The attributes of a source at points, and the estimates that are asked for. Points at infinity are OUTSIDE.
+/// The attributes of a source at the points of a mesh, or at points alone, and the estimates that are asked for. Points
+/// at infinity are OUTSIDE.
 Vertex_attributes evaluate_points(const Request& options, const Source& source,
-                                  std::span<const Kernel::Point_3> points, Progress& progress);
+                                  const Indexed_triangle_mesh_3<Kernel>& at, Progress& progress);
 
 /// Writes the page and the picture that are asked for of a mesh of that name, and returns them. Throws `Input_error`, also
 /// for a mesh without faces, and for an attribute that it has not.

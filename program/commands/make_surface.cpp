@@ -208,11 +208,12 @@ void for_each_attribute_block(const Source& source, const Request& options, Anno
       max_distance_to_source(source.function, options.source.level, options.orientation, points, sampled_status);
   Attribute_selection selection = options.attributes;
   selection.has_status = true;
+  const auto areas = selected_vertex_areas(selection, points, surface.mesh.triangles);
   for (std::size_t first = 0; first < points.size(); first += vertices_of_block) {
     const std::size_t count = std::min(vertices_of_block, points.size() - first);
     Vertex_attributes attributes = attributes_of_source(
         source.function, options.orientation, points.subspan(first, count), selection, options.estimator,
-        sampled_status.empty() ? sampled_status : sampled_status.subspan(first, count));
+        Sampled_vertices(sampled_status, areas).part(first, count));
     const auto counts = equiaffine::count(*attributes.status);
     for (std::size_t s = 0; s < counts.size(); ++s) surface.status[s] += counts[s];
     if (!options.attributes.has_status) attributes.status.reset();

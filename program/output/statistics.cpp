@@ -2,7 +2,7 @@
 #include "output/statistics.h"
 
 #include "output/json_text.h"
-#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/attributes/internal/attribute_table.h>
 #include <equiaffine/io/read_points.h>
 
 #include <algorithm>
@@ -62,11 +62,11 @@ void add(const Fit_statistics& fit, Json& json) {
                  {"below_50", fit.known[0][2]}};
   for (std::size_t row = 0; row < fit.known.size(); ++row) {
     const auto& [to_10, to_20, to_50] = fit.known[row];
-    json["fit"]["known"][std::string(error_table<double>[row].attribute)] = {
+    json["fit"]["known"][std::string(rows_with_error[row]->name)] = {
         {"below_10", to_10},
         {"below_20", to_20},
         {"below_50", to_50},
-        {"part_of", error_table<double>[row].name_of_size}};
+        {"part_of", rows_with_error[row]->error.name_of_size}};
   }
 }
 

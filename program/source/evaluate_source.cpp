@@ -38,7 +38,7 @@ Attribute_selection gradients_of(const Attribute_selection& selection) {
 template <class Traits>
 Vertex_attributes estimated_attributes(const Level_set_traits_3<Traits>& level_set, Estimator estimator,
                                        std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
-                                       std::span<const Point_status> sampled_status, Vertex_attributes gradients) {
+                                       const Sampled_vertices& sampled, Vertex_attributes gradients) {
   Vertex_attributes attributes;
   auto next_gradient = gradients.columns.begin();
   std::vector<std::size_t> estimated;
@@ -60,10 +60,12 @@ Vertex_attributes estimated_attributes(const Level_set_traits_3<Traits>& level_s
           const Kernel::Point_3& p = points[n];
           const auto structure =
               local_structure<double>(local.taylor(p), {p.x(), p.y(), p.z()}, rounding(local, p), estimator);
-          for (const std::size_t c : estimated) attributes.columns[c].values[n] = selection.columns[c].get(structure);
+          Attribute_sample<double> sample(structure);
+          if (!sampled.areas.empty()) sample.vertex_area = sampled.areas[n];
+          for (const std::size_t c : estimated) attributes.columns[c].values[n] = selection.columns[c].get(sample);
           if (attributes.status)
             (*attributes.status)[n] =
-                sampled_status.empty() ? structure.status : status_after_sampling(structure.status, sampled_status[n]);
+                sampled.status.empty() ? structure.status : status_after_sampling(structure.status, sampled.status[n]);
         }
       });
   return attributes;
@@ -84,18 +86,17 @@ Isosurface_3<Kernel> isosurface_of_source(const Source_function& function, doubl
 
 Vertex_attributes attributes_of_source(const Source_function& function, Orientation_of_level_set orientation,
                                        std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
-                                       Estimator estimator, std::span<const Point_status> sampled_status) {
+                                       Estimator estimator, const Sampled_vertices& sampled) {
   const double isovalue = 0; // attributes do not depend on it
   return std::visit(
       [&]<class Traits>(const Traits& f) {
         const Level_set_traits_3<Traits> level_set(f, isovalue, orientation);
         const auto compute = [&](const Attribute_selection& attributes) {
-          if constexpr (is_fit<Traits>) return compute_attributes<Tag>(level_set, points, attributes, sampled_status);
-          else return vectorized::compute_attributes(level_set, points, attributes, sampled_status);
+          if constexpr (is_fit<Traits>) return compute_attributes<Tag>(level_set, points, attributes, sampled);
+          else return vectorized::compute_attributes(level_set, points, attributes, sampled);
         };
         if (estimator == Estimator::COMPACT) return compute(selection);
-        return estimated_attributes(level_set, estimator, points, selection, sampled_status,
-                                    compute(gradients_of(selection)));
+        return estimated_attributes(level_set, estimator, points, selection, sampled, compute(gradients_of(selection)));
       },
       function);
 }

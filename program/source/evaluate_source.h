@@ -20,11 +20,11 @@ namespace equiaffine {
 Isosurface_3<Kernel> isosurface_of_source(const Source_function& function, double isovalue,
                                           const Marching_cubes_options& options);
 
-/// Attributes at a point are those of the level set through it, whatever the value of f there. `sampled_status` is
-/// empty or has one entry per point.
+/// Attributes at a point are those of the level set through it, whatever the value of f there. `sampled` is as in
+/// compute_attributes().
 Vertex_attributes attributes_of_source(const Source_function& function, Orientation_of_level_set orientation,
                                        std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
-                                       Estimator estimator, std::span<const Point_status> sampled_status = {});
+                                       Estimator estimator, const Sampled_vertices& sampled = {});
 
 /// The greatest distance of points from the level set, to first order.
 double max_distance_to_source(const Source_function& function, double isovalue, Orientation_of_level_set orientation,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <equiaffine/attributes/Fit_statistics.h>
-#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/attributes/internal/attribute_table.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/geometry/Point_status.h>
 
@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -40,7 +41,8 @@ double part(Structures structures, const Condition& condition) {
 
 bool is_doubtful(const Structure& s) {
   return s.structure.status == Point_status::REGULAR &&
-         !error_table<double>[0].is_known(s.structure, s.error, Fit_statistics::error_bounds.back());
+         !find_row("affine_gaussian_curvature")
+              ->error.is_known(s.structure, s.error, Fit_statistics::error_bounds.back());
 }
 
 bool is_noise(const Structure& s) {
@@ -48,6 +50,49 @@ bool is_noise(const Structure& s) {
 }
 
 } // namespace
+
+Vertex_attributes::Column Estimate_attribute::column(Structures structures) const {
+  Vertex_attributes::Column result = {name, {}};
+  for (const auto& s : structures)
+    result.values.push_back(row->error.get(kind == Estimate_kind::ERROR   ? s.error
+                                           : kind == Estimate_kind::NOISE ? s.noise
+                                                                          : s.detail));
+  return result;
+}
+
+const std::vector<Estimate_attribute>& estimate_attributes() {
+  static const std::vector<Estimate_attribute> attributes = [] {
+    constexpr std::size_t of_splines = 2; // the affine curvatures, of which there are all kinds
+    std::vector<Estimate_attribute> result;
+    const auto add = [&](Estimate_kind kind, const std::string& suffix, std::size_t count) {
+      for (std::size_t n = 0; n < count; ++n)
+        result.push_back({std::string(rows_with_error[n]->name) + suffix, kind, rows_with_error[n],
+                          kind == Estimate_kind::ERROR && n < of_splines});
+    };
+    add(Estimate_kind::ERROR, "_error", rows_with_error.size());
+    add(Estimate_kind::NOISE, "_noise", of_splines);
+    add(Estimate_kind::DETAIL, "_detail", of_splines);
+    return result;
+  }();
+  return attributes;
+}
+
+Vertex_attributes attributes_of_fit(Structures structures, const Attribute_selection& selection,
+                                    std::span<const double> areas) {
+  Vertex_attributes result;
+  for (const Attribute& attribute : selection.columns) {
+    auto& values = result.columns.emplace_back(Vertex_attributes::Column{std::string(attribute.name), {}}).values;
+    for (std::size_t i = 0; i < structures.size(); ++i) {
+      const auto& structure = structures[i].structure;
+      values.push_back(areas.empty() ? attribute.get(structure)
+                                     : attribute.get(Attribute_sample<double>(structure, areas[i])));
+    }
+  }
+  if (!selection.has_status) return result;
+  result.status.emplace();
+  for (const auto& s : structures) result.status->push_back(s.structure.status);
+  return result;
+}
 
 Fit_statistics statistics_of_fit(Structures structures) {
   Fit_statistics statistics;
@@ -58,7 +103,7 @@ Fit_statistics statistics_of_fit(Structures structures) {
   for (std::size_t row = 0; row < statistics.known.size(); ++row)
     for (std::size_t n = 0; n < Fit_statistics::error_bounds.size(); ++n)
       statistics.known[row][n] = part(structures, [&](const Structure& s) {
-        return error_table<double>[row].is_known(s.structure, s.error, Fit_statistics::error_bounds[n]);
+        return rows_with_error[row]->error.is_known(s.structure, s.error, Fit_statistics::error_bounds[n]);
       });
   statistics.parabolic =
       part(structures, [](const Structure& s) { return s.structure.status == Point_status::PARABOLIC; });

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <equiaffine/attributes/internal/attribute_table.h>
-#include <equiaffine/attributes/internal/error_table.h>
 #include <equiaffine/display/internal/trust.h>
-#include <equiaffine/geometry/euclidean_structure.h>
+#include <equiaffine/geometry/Local_structure_3.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -21,25 +21,27 @@ bool is_known(double size, double error) { return error <= size / 2; }
 
 std::vector<double> sizes_of_numbers(const Vertex_attributes::Column& column, const Vertex_attributes& attributes) {
   std::vector<double> sizes = column.values;
-  const auto *K = find_column(attributes, "affine_gaussian_curvature"),
-             *H = find_column(attributes, "affine_mean_curvature");
-  const auto *k1 = find_column(attributes, "k1"), *k2 = find_column(attributes, "k2");
-  const bool is_principal = column.name == "k1" || column.name == "k2" || column.name == "mean_curvature";
+  const auto* const row = find_row(column.name);
+  const auto number = [&, missing = std::numeric_limits<double>::quiet_NaN()](const char* name) {
+    const auto* const other = find_column(attributes, name);
+    return [other, missing](std::size_t i) { return other ? other->values[i] : missing; };
+  };
+  const auto k1 = number("k1"), k2 = number("k2"), euclidean_K = number("gaussian_curvature"),
+             K = number("affine_gaussian_curvature"), H = number("affine_mean_curvature"), J = number("pick_invariant");
+  Local_structure_3<double> s{};
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    if (column.name == "affine_normal_angle") sizes[i] = internal::whole_angle;
-    else if (k1 && k2 && (is_principal || column.name == "gaussian_curvature")) {
-      const double curved = curvedness(k1->values[i], k2->values[i]);
-      sizes[i] = is_principal ? curved : curved * curved;
-    } else if (K && H && (&column == K || &column == H)) {
-      const double size = std::abs(K->values[i]) + H->values[i] * H->values[i];
-      sizes[i] = &column == K ? size : std::sqrt(size);
-    } else sizes[i] = std::abs(sizes[i]);
+    sizes[i] = std::abs(sizes[i]); // if there are no columns to make the size of
+    if (row == nullptr || row->error.get == nullptr) continue;
+    s.euclidean.k1 = k1(i);
+    s.euclidean.k2 = k2(i);
+    s.euclidean.gaussian_curvature = euclidean_K(i);
+    s.affine.gaussian_curvature = K(i);
+    s.affine.mean_curvature = H(i);
+    s.affine.pick_invariant = J(i);
+    const double size = row->error.size(s);
+    if (!std::isnan(size)) sizes[i] = size;
+    sizes[i] = std::max(sizes[i], 2 * row->error.negligible(euclidean_K(i)));
   }
-  const auto* euclidean_K = find_column(attributes, "gaussian_curvature");
-  for (const auto& row : error_table<double>)
-    if (euclidean_K && row.attribute == column.name && row.power_of_negligible > 0)
-      for (std::size_t i = 0; i < sizes.size(); ++i)
-        sizes[i] = std::max(sizes[i], 2 * internal::negligible_error(euclidean_K->values[i], row.power_of_negligible));
   return sizes;
 }
 

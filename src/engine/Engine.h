@@ -19,7 +19,8 @@ struct Engine {
   using Statuses = std::span<const Point_status>;
 
   Isosurface_3<Kernel> (*marching_cubes)(const Level_set&, const Marching_cubes_options&);
-  Vertex_attributes (*compute_attributes)(const Level_set&, Points, const Attribute_selection&, Statuses);
+  Vertex_attributes (*compute_attributes)(const Level_set&, Points, const Attribute_selection&,
+                                          const Sampled_vertices&);
   double (*max_distance_to_surface)(const Level_set&, Points, Statuses);
 };
 

@@ -20,8 +20,8 @@ Isosurface_3<Kernel> isosurface(const Level_set_traits_3<Function>& level_set, c
 
 template <class Function>
 Vertex_attributes attributes(const Level_set_traits_3<Function>& level_set, std::span<const Kernel::Point_3> points,
-                             const Attribute_selection& selection, std::span<const Point_status> sampled_status) {
-  return equiaffine::compute_attributes<Tag>(level_set, points, selection, sampled_status);
+                             const Attribute_selection& selection, const Sampled_vertices& sampled) {
+  return equiaffine::compute_attributes<Tag>(level_set, points, selection, sampled);
 }
 
 template <class Function>

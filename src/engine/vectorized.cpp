@@ -48,14 +48,14 @@ Isosurface_3<Kernel> marching_cubes(const Level_set_traits_3<Spline>& level_set,
 
 Vertex_attributes compute_attributes(const Level_set_traits_3<Formula>& level_set,
                                      std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
-                                     std::span<const Point_status> sampled_status, Instruction_set set) {
-  return engine<Formula>(set).compute_attributes(level_set, points, selection, sampled_status);
+                                     const Sampled_vertices& sampled, Instruction_set set) {
+  return engine<Formula>(set).compute_attributes(level_set, points, selection, sampled);
 }
 
 Vertex_attributes compute_attributes(const Level_set_traits_3<Spline>& level_set,
                                      std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
-                                     std::span<const Point_status> sampled_status, Instruction_set set) {
-  return engine<Spline>(set).compute_attributes(level_set, points, selection, sampled_status);
+                                     const Sampled_vertices& sampled, Instruction_set set) {
+  return engine<Spline>(set).compute_attributes(level_set, points, selection, sampled);
 }
 
 double max_distance_to_surface(const Level_set_traits_3<Formula>& level_set, std::span<const Kernel::Point_3> points,

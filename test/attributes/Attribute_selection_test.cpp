@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,8 +54,9 @@ TEST(Attribute_selection, names_for_people_have_vectors_by_one_name) {
                                  "affine_gaussian_curvature affine_mean_curvature pick_invariant affine_normal_angle "
                                  "affine_area_density ");
   EXPECT_EQ(joined(names.added_by_all), "affine_k1 affine_k2 direction1 direction2 metric ");
-  EXPECT_EQ(joined(names.by_name), "quadric_defect shape_index curvedness affine_frame1 affine_frame2 affine_frame3 "
-                                   "affine_frame_scale affine_frame_quality affine_signature ");
+  EXPECT_EQ(joined(names.by_name),
+            "quadric_defect shape_index curvedness vertex_area affine_area affine_frame1 affine_frame2 "
+            "affine_frame3 affine_frame_scale affine_frame_quality affine_signature ");
   EXPECT_EQ(joined(names.signature), "affine_gaussian_curvature affine_mean_curvature pick_invariant "
                                      "affine_gaussian_curvature_gradient affine_mean_curvature_gradient "
                                      "pick_invariant_gradient ");
@@ -67,6 +71,48 @@ TEST(Attribute_selection, every_name_is_that_of_one_row) {
       EXPECT_EQ(select_attributes(row.column(i)).columns.size(), row.column(i) == row.name ? row.size() : 1);
     }
   }
+}
+
+/// The text of a page of the manual, from a title on to the next one.
+std::string section_of(const std::string& page, const std::string& title) {
+  std::ifstream file(std::string(EQUIAFFINE_TEST_DATA) + "/../../doc/" + page);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t begin = text.find("\n## " + title + "\n");
+  EXPECT_NE(begin, std::string::npos) << page;
+  return text.substr(begin, text.find("\n## ", begin + 1) - begin);
+}
+
+TEST(Attribute_selection, the_documentation_has_the_rows_of_the_table_with_their_weights) {
+  const std::string quantities = section_of("conventions.md", "Quantities");
+  const std::string attributes = section_of("program.md", "Attributes");
+  for (const auto& row : attribute_table<double>) {
+    const std::string name(row.name), first(row.column(0)), last(row.column(row.size() - 1));
+    EXPECT_TRUE(attributes.find(name) != std::string::npos || attributes.find(first) != std::string::npos) << name;
+    std::string line; // that has the first or the last component
+    std::istringstream lines(quantities);
+    while (std::getline(lines, line)) {
+      const std::string cell = ' ' + line.substr(0, line.find(" | ")) + ' ';
+      const auto has = [&](const std::string& column) {
+        for (const char* const end : {"`", " "})
+          for (const char* const begin : {"`", " "})
+            if (cell.find(begin + column + end) != std::string::npos) return true;
+        return false;
+      };
+      if (line.starts_with("| `") && (has(first) || has(last))) break;
+    }
+    ASSERT_TRUE(lines) << name << " is not in doc/conventions.md";
+    if (row.quantity.label.empty()) continue;
+    const int weight = row.quantity.weight;
+    const std::string text = weight % 2 ? std::to_string(weight) + "/2" : std::to_string(weight / 2);
+    EXPECT_TRUE(line.ends_with(" | " + text + " |")) << line;
+  }
+}
+
+TEST(Attribute_selection, errors_have_the_columns_of_the_contract_in_its_order) {
+  std::string names;
+  for (const auto* const row : rows_with_error) names += std::string(row->name) + " ";
+  EXPECT_EQ(names, "affine_gaussian_curvature affine_mean_curvature pick_invariant affine_normal affine_normal_angle "
+                   "affine_area_density conormal normal gaussian_curvature mean_curvature k1 k2 ");
 }
 
 } // namespace Attribute_selection_test

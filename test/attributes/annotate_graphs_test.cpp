@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annotate(), annotate_by_fit() and the samplers with the meshes, maps and named parameters of CGAL.
+#include "support/contraction.h"
 #include "support/sample_volume.h"
 #include <equiaffine/attributes/annotate.h>
 #include <equiaffine/attributes/annotate_by_fit.h>
@@ -95,6 +96,7 @@ using Graphs = testing::Types<Surface_mesh, CGAL::Polyhedron_3<Other_kernel>, Li
 TYPED_TEST_SUITE(Annotate_graph, Graphs);
 
 TYPED_TEST(Annotate_graph, maps_that_are_given_hold_the_structure_at_any_scale) {
+  SKIP_IF_THE_COMPILER_CONTRACTS();
   for (const double unit : {1e-6, 1., 1e6}) {
     const auto traits = ellipsoid(unit);
     TypeParam graph;
@@ -275,6 +277,7 @@ TEST(Annotate_maps, a_range_of_points_has_maps_from_its_elements) {
 }
 
 TEST(Annotate_maps, values_may_be_in_the_elements_of_the_range) {
+  SKIP_IF_THE_COMPILER_CONTRACTS();
   using Element = std::tuple<Point, double, std::array<float, 3>, std::array<float, 6>>;
   std::vector<Element> elements = {{Point(1, 0, 0), 0, {}, {}}, {Point(0, std::sqrt(0.5), 0), 0, {}, {}}};
   const auto f = ellipsoid();

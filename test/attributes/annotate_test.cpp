@@ -12,7 +12,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +28,7 @@ auto torus() {
 }
 
 TEST(Annotate, property_maps_hold_the_local_structure_of_their_vertices) {
+  SKIP_IF_THE_COMPILER_CONTRACTS();
   const auto traits = torus();
   Mesh mesh = to_surface_mesh(marching_cubes(traits, {.resolution = 20}));
   annotate(mesh, traits);
@@ -100,8 +100,8 @@ TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads)
   Mesh mesh = to_surface_mesh(surface);
   annotate<CGAL::Parallel_if_available_tag>(mesh, traits);
   const auto columns =
-      compute_attributes(traits, std::span(surface.points),
-                         select_attributes("all,quadric_defect,shape_index,curvedness"), surface.vertex_status);
+      compute_attributes(traits, surface, select_attributes("all,quadric_defect,shape_index,curvedness,affine_area"),
+                         surface.vertex_status);
   std::size_t scalars = 0;
   for (const auto& column : columns.columns) {
     const auto [map, is_new] = mesh.add_property_map<Vertex_index, double>("v:" + column.name);
@@ -109,7 +109,37 @@ TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads)
     ++scalars;
     for (std::size_t i = 0; i < surface.points.size(); ++i) ASSERT_EQ(column.values[i], map[Vertex_index(unsigned(i))]);
   }
-  EXPECT_EQ(scalars, 20u);
+  EXPECT_EQ(scalars, 21u);
+}
+
+TEST(Annotate, functions_of_other_numbers_fill_the_maps_that_are_given) {
+  using Long = CGAL::Simple_cartesian<long double>;
+  const auto sphere =
+      make_analytic_traits<Long>([](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z - 4.; },
+                                 CGAL::Bbox_3(-3, -3, -3, 3, 3, 3));
+  Mesh mesh;
+  const auto v = mesh.add_vertex(Kernel::Point_3(2, 0, 0));
+  const auto H = mesh.add_property_map<Vertex_index, double>("H").first;
+  const auto n = mesh.add_property_map<Vertex_index, Kernel::Vector_3>("n").first;
+  const auto status = mesh.add_property_map<Vertex_index, Point_status>("s", Point_status::UNCONVERGED).first;
+  annotate(mesh, sphere, parameters::vertex_mean_curvature_map(H).vertex_unit_normal_map(n).vertex_status_map(status));
+  EXPECT_NEAR(H[v], 0.5, 1e-15);
+  EXPECT_EQ(n[v], Kernel::Vector_3(1, 0, 0));
+  EXPECT_EQ(status[v], Point_status::UNCONVERGED);
+}
+
+TEST(Annotate, a_mesh_without_faces_has_no_areas_and_corners_of_polygons_share_them) {
+  const auto traits = torus();
+  Mesh mesh;
+  for (const double x : {0.7, 0.8})
+    for (const double y : {0., 0.3}) mesh.add_vertex(Kernel::Point_3(x, y, 0.1));
+  annotate(mesh, traits);
+  EXPECT_FALSE(internal::Named_maps<Mesh>::find<double>(mesh, "v:vertex_area"));
+  mesh.add_face(Vertex_index(0), Vertex_index(2), Vertex_index(3), Vertex_index(1));
+  annotate(mesh, traits);
+  const auto area = internal::Named_maps<Mesh>::find<double>(mesh, "v:vertex_area");
+  ASSERT_TRUE(area);
+  for (const Vertex_index v : mesh.vertices()) EXPECT_NEAR((*area)[v], 0.03 / 4, 1e-15);
 }
 
 } // namespace annotate_test

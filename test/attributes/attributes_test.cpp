@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/contraction.h"
 #include <equiaffine/attributes/attributes.h>
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
 
@@ -10,7 +12,9 @@
 
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <span>
+#include <stdexcept>
 #include <vector>
 
 namespace attributes_test {
@@ -100,6 +104,40 @@ TEST(Attributes, the_status_comes_without_columns_and_nothing_where_nothing_was_
   EXPECT_EQ(status.status->at(1), Point_status::REGULAR);
   const auto nothing = compute_attributes(implicit_torus(), p, select_attributes("none"));
   EXPECT_TRUE(nothing.columns.empty() && !nothing.status);
+}
+
+TEST(Attributes, areas_around_vertices_add_up_to_those_of_the_mesh) {
+  constexpr double radius = 1.5, density = 0.8164965809277260; // (1 / radius^2)^(1/4)
+  const auto sphere = make_analytic_traits<Kernel>(Expression_3("x^2+y^2+z^2-2.25"), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
+  const auto mesh = marching_cubes(sphere, {.resolution = 24});
+  const auto selection = select_attributes("vertex_area,affine_area");
+  const auto attributes = compute_attributes(sphere, mesh, selection);
+  double area = 0, sum = 0, affine = 0;
+  for (const auto& t : mesh.triangles)
+    area += std::sqrt(CGAL::squared_area(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]));
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    const double of_vertex = attributes.columns[0].values[i];
+    EXPECT_GT(of_vertex, 0);
+    EXPECT_NEAR(attributes.columns[1].values[i], density * of_vertex, 1e-12 * of_vertex);
+    sum += of_vertex;
+    affine += attributes.columns[1].values[i];
+  }
+  EXPECT_NEAR(sum, area, 1e-12 * area);
+  EXPECT_NEAR(affine, density * area, 1e-12 * area);
+  EXPECT_NEAR(area, 4 * std::numbers::pi * radius * radius, 0.02 * area);
+}
+
+TEST(Attributes, areas_are_unknown_without_a_mesh) {
+  const auto p = points();
+  const auto selection = select_attributes("vertex_area,k1,affine_area");
+  const auto attributes = compute_attributes(implicit_torus(), p, selection);
+  EXPECT_TRUE(std::isnan(attributes.columns[0].values[1]) && std::isnan(attributes.columns[2].values[1]));
+  EXPECT_TRUE(std::isfinite(attributes.columns[1].values[1]));
+  const Indexed_triangle_mesh_3<Kernel> without_triangles{p, {}};
+  EXPECT_THROW(compute_attributes(implicit_torus(), without_triangles, selection), Input_error);
+  const std::vector<double> too_few(3);
+  EXPECT_THROW(compute_attributes(implicit_torus(), p, selection, {std::span<const Point_status>(), too_few}),
+               std::invalid_argument);
 }
 
 } // namespace attributes_test

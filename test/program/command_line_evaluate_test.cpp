@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace command_line_evaluate_test {
@@ -158,6 +159,26 @@ TEST_F(Program_command_line, the_signature_is_computed_on_request_alone) {
   EXPECT_EQ(rows(one).at(0).at("pick_invariant_gradient"), row.at("pick_invariant_gradient"));
   EXPECT_EQ(run_well(evaluate + Arguments{"all"}, "x,y,z\n").find("gradient"), std::string::npos);
   EXPECT_EQ(run_well(evaluate + Arguments{"quadric_defect"}, "x,y,z\n"), "x,y,z,quadric_defect,status\n");
+}
+
+TEST_F(Program_command_line, areas_come_with_a_mesh_and_are_refused_without_one) {
+  const Arguments areas = {"--attributes", "vertex_area,affine_area"};
+  run_well(Arguments{"mesh", "-o", "s.ply", "--resolution", "16", "--attributes", "none"} + sphere);
+  run_well(Arguments{"mesh", "-o", "s.csv", "--resolution", "16"} + sphere + areas);
+  double area = 0, affine_area = 0;
+  for (const auto& row : rows(file("s.csv"))) {
+    area += std::stod(row.at("vertex_area"));
+    affine_area += std::stod(row.at("affine_area"));
+  }
+  EXPECT_NEAR(area / (4 * std::numbers::pi), 1, 0.02);
+  EXPECT_NEAR(affine_area / area, 1, 1e-9) << "of a sphere of radius 1";
+  const Arguments evaluate = Arguments{"evaluate", "-o", "-", "--function", "x^2+y^2+z^2-1"} + areas;
+  const auto of_mesh = rows(run_well(evaluate + Arguments{"--points", "s.ply"}));
+  EXPECT_EQ(of_mesh.at(3).at("vertex_area"), rows(file("s.csv")).at(3).at("vertex_area"));
+  EXPECT_NE(run(evaluate + Arguments{"--points", "-"}, "x,y,z\n1,2,3\n").error.find("'vertex_area'"),
+            std::string::npos);
+  run_well(Arguments{"annotate", "s.ply", "-o", "annotated.csv"} + areas);
+  EXPECT_EQ(rows(file("annotated.csv")).at(3).at("vertex_area"), of_mesh.at(3).at("vertex_area"));
 }
 
 } // namespace command_line_evaluate_test

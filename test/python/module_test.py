@@ -120,6 +120,18 @@ class Sources(InTemporaryFolder):
         self.assertEqual(set(ea.curvatures(ball.V, ball.F, attributes=["affine_normal"])),
                          {"affine_normal_x", "affine_normal_y", "affine_normal_z", "affine_normal_error"})
 
+    def test_areas_add_up_to_those_of_the_surface(self):
+        ball = ea.mesh("x^2 + y^2 + z^2 = 1", box=1.2, resolution=16, attributes=["vertex_area", "affine_area"])
+        corners = ball.V[ball.F]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        area = np.linalg.norm(normals, axis=1).sum() / 2
+        for name in ("vertex_area", "affine_area"):
+            self.assertAlmostEqual(ball[name].sum() / area, 1, places=9)
+        fitted = ea.curvatures(ball.V, ball.F, attributes="vertex_area")
+        np.testing.assert_array_equal(fitted["vertex_area"], ball["vertex_area"])
+        with self.assertRaisesRegex(ValueError, "vertex_area"):
+            ea.curvatures(ball.V, attributes="vertex_area")
+
     def test_a_surface_reports_what_was_measured_and_chosen(self):
         x, y, z = np.mgrid[-1:1:40j, -1:1:40j, -1:1:40j]
         samples = (x**2 + y**2 + z**2 + np.random.default_rng(3).normal(0, 1e-3, x.shape)).astype(np.float32)

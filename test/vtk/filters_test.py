@@ -314,6 +314,7 @@ class Surface(unittest.TestCase):
         cases = [(without_scalars, {}, "no such point array"), (one_slab, {}, "1 point along an axis"),
                  (nan, {}, "no point of the image has a finite number"), (strings, {}, "no such point array"),
                  (short, {}, "no number for each point"), (None, {"Attributes": "foo"}, "unknown attribute 'foo'"),
+                 (None, {"Attributes": "vertex_area"}, "a whole mesh"),
                  (None, {"SplineDegree": 6}, "not 5, 7 or 9"), (None, {"Level": float("nan")}, "not finite"),
                  (None, {"ArrayComponent": 2}, "has 1 component, of which number 2 is none")]
         for change, properties, words in cases:
@@ -380,6 +381,13 @@ class Curvatures(unittest.TestCase):
         error = np.abs(array(mesh, "gaussian_curvature") - 0.25)
         self.assertTrue((error <= array(mesh, "gaussian_curvature_error")).mean() > 0.95)
         self.assertEqual(set(array(mesh, "status")), {0})
+
+        curvatures.SetAttributes("vertex_area")
+        curvatures.Update()
+        area = vtk.vtkMassProperties()
+        area.SetInputConnection(sphere.GetOutputPort())
+        self.assertAlmostEqual(array(curvatures.GetOutput(), "vertex_area").sum() / area.GetSurfaceArea(), 1, places=9)
+        curvatures.SetAttributes("all")
 
         strips = vtk.vtkStripper()
         strips.SetInputConnection(sphere.GetOutputPort())

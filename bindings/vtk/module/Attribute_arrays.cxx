@@ -29,8 +29,7 @@ Attribute_arrays::Attribute_arrays(const Attribute_selection& selection, const E
     for (; first < end; ++first) array.columns.push_back(first);
     arrays_.push_back(std::move(array));
   }
-  for (std::size_t r = 0; r < errors.size(); ++r)
-    arrays_.push_back({name_of(errors[r]), false, {columns.size() + r}, {}});
+  for (std::size_t r = 0; r < errors.size(); ++r) arrays_.push_back({errors[r].name, false, {columns.size() + r}, {}});
 }
 
 void Attribute_arrays::add(const Vertex_attributes& block, std::span<const std::size_t> places) {

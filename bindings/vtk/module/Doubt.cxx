@@ -10,23 +10,23 @@
 
 namespace equiaffine {
 
-Error_rows selected_errors(const Attribute_selection& selection, std::size_t count) {
+Error_rows selected_errors(const Attribute_selection& selection, bool of_splines) {
   Error_rows rows;
-  for (std::size_t n = 0; n < count; ++n)
-    if (std::any_of(selection.columns.begin(), selection.columns.end(), [&](const Attribute& a) {
-          return attribute_table<double>[a.row].name == error_table<double>[n].attribute;
-        }))
-      rows.push_back(error_table<double>[n]);
+  for (const Estimate_attribute& estimate : estimate_attributes())
+    if (estimate.kind == Estimate_kind::ERROR && (estimate.is_of_splines || !of_splines) &&
+        std::any_of(selection.columns.begin(), selection.columns.end(),
+                    [&](const Attribute& a) { return attribute_table<double>[a.row].name == estimate.row->name; }))
+      rows.push_back(estimate);
   return rows;
 }
 
 void Doubt::add(Vertex_attributes& block, std::span<const unsigned char> ghosts) {
   if (doubtful_ == Doubtful::UNTESTED) return;
   std::vector<std::vector<double>> sizes; // of all columns before any of their numbers is hidden
-  for (const auto& row : rows_) sizes.push_back(sizes_of_numbers(*find_column(block, row.attribute), block));
+  for (const auto& row : rows_) sizes.push_back(sizes_of_numbers(*find_column(block, row.row->name), block));
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const auto column = std::find_if(block.columns.begin(), block.columns.end(),
-                                     [&](const auto& c) { return c.name == rows_[r].attribute; });
+                                     [&](const auto& c) { return c.name == rows_[r].row->name; });
     const auto& errors = find_errors(block, column->name)->values;
     for (std::size_t v = 0; v < ghosts.size(); ++v) {
       if (!std::isfinite(column->values[v])) continue;
@@ -52,9 +52,9 @@ Doubt::Verdict Doubt::verdict(const Ranks& ranks, const std::vector<std::string>
   for (std::size_t r = 0; r < rows_.size(); ++r) { // those of which all numbers are hidden, too
     double unknown = counts[2 * r] == 0 ? 0 : double(counts[2 * r + 1]) / double(counts[2 * r]);
     if (doubtful_ == Doubtful::UNTESTED) unknown = 1;
-    const bool exists = counts[2 * r] > 0 || std::find(names.begin(), names.end(), rows_[r].attribute) != names.end();
-    add(std::string(rows_[r].attribute), exists ? 1 : std::numeric_limits<double>::quiet_NaN());
-    add(name_of(rows_[r]), 0);
+    const bool exists = counts[2 * r] > 0 || std::find(names.begin(), names.end(), rows_[r].row->name) != names.end();
+    add(std::string(rows_[r].row->name), exists ? 1 : std::numeric_limits<double>::quiet_NaN());
+    add(rows_[r].name, 0);
     auto& errors = sample.columns.back().values;
     std::fill_n(errors.begin(), std::size_t(std::ceil(vertices * unknown)), std::numeric_limits<double>::infinity());
   }

@@ -4,7 +4,7 @@
 
 #include "Ranks.h"
 #include <equiaffine/attributes/Attribute_selection.h>
-#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/attributes/Fit_statistics.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <cstddef>
@@ -19,13 +19,10 @@ namespace equiaffine {
 /// What becomes of numbers whose error is to be known.
 enum class Doubtful { UNTESTED, COUNTED, HIDDEN };
 
-using Error_rows = std::vector<Error_row<double>>;
+using Error_rows = std::vector<Estimate_attribute>;
 
-/// The rows among the first `count` of error_table whose attribute is selected.
-Error_rows selected_errors(const Attribute_selection& selection, std::size_t count);
-
-/// The name of the array with the errors of a row.
-inline std::string name_of(const Error_row<double>& row) { return std::string(row.attribute) + "_error"; }
+/// The errors that are estimated of selected attributes; `of_splines` leaves out those that only fits have.
+Error_rows selected_errors(const Attribute_selection& selection, bool of_splines);
 
 /// Counts at how many vertices numbers are known, by the rules of pages and pictures.
 class Doubt {

@@ -5,6 +5,7 @@
 #include "Doubt.h"
 #include "is_aborted.h"
 #include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/attributes/Fit_statistics.h>
 #include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/fit/fitted_structures.h>
@@ -88,22 +89,13 @@ Structures structures_of(vtkPolyData& mesh, const Fit_options& options, Orientat
                                     .normal_map(CGAL::Second_of_pair_property_map<Point_with_normal>()));
 }
 
-void add_columns(const Structures& structures, const Attribute_selection& selection, bool with_errors,
-                 vtkPointData& data) {
-  Vertex_attributes attributes;
+void add_columns(const Structures& structures, const Attribute_selection& selection, const std::vector<double>& areas,
+                 bool with_errors, vtkPointData& data) {
   std::vector<std::size_t> all(structures.size());
   std::iota(all.begin(), all.end(), std::size_t(0));
-  for (const Attribute& attribute : selection.columns) {
-    auto& column = attributes.columns.emplace_back(Vertex_attributes::Column{std::string(attribute.name), {}});
-    for (const auto& s : structures) column.values.push_back(attribute.get(s.structure));
-  }
-  attributes.status.emplace();
-  for (const auto& s : structures) attributes.status->push_back(s.structure.status);
-  const Error_rows errors = selected_errors(selection, with_errors ? error_table<double>.size() : 0);
-  for (const auto& row : errors) {
-    auto& column = attributes.columns.emplace_back(Vertex_attributes::Column{name_of(row), {}});
-    for (const auto& s : structures) column.values.push_back(row.get(s.error));
-  }
+  Vertex_attributes attributes = attributes_of_fit(structures, selection, areas);
+  const Error_rows errors = with_errors ? selected_errors(selection, false) : Error_rows();
+  for (const Estimate_attribute& row : errors) attributes.columns.push_back(row.column(structures));
   Attribute_arrays arrays(selection, errors);
   arrays.add(attributes, all);
   arrays.move_to(data);
@@ -142,11 +134,12 @@ int vtkEquiaffineCurvatures::RequestData(vtkInformation*, vtkInformationVector**
     const Fit_options options = {.scale = this->Scale < 0 ? std::nullopt : std::optional(this->Scale),
                                  .degree = this->Degree == 0 ? std::nullopt : std::optional(this->Degree),
                                  .feature_angle = this->FeatureAngle};
+    const auto areas = selected_vertex_areas(selection, points_of(*input), triangles_of(*input));
     const Structures structures = structures_of(*input, options,
                                                 this->Orientation == AGAINST
                                                     ? Orientation_of_level_set::AGAINST_GRADIENT
                                                     : Orientation_of_level_set::ALONG_GRADIENT);
-    add_columns(structures, selection, this->EstimateErrors, *output->GetPointData());
+    add_columns(structures, selection, areas, this->EstimateErrors, *output->GetPointData());
   } catch (const Aborted&) {
     output->Initialize();
   } catch (const std::bad_alloc&) {

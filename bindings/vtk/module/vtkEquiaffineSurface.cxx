@@ -8,7 +8,6 @@
 #include "Surface_arrays.h"
 #include "is_aborted.h"
 #include <equiaffine/attributes/Curvature_error_3.h>
-#include <equiaffine/attributes/internal/error_table.h>
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/engine/vectorized.h>
@@ -192,8 +191,8 @@ void add_errors(const Errors& errors, std::span<const equiaffine::Kernel::Point_
     for (const std::size_t n : numbers) at_points[n] = {local(points[n]), 0, 0, 0, 0, 0, 0, 0, 0};
   });
   for (const auto& row : rows) {
-    auto& column = attributes.columns.emplace_back(Vertex_attributes::Column{name_of(row), {}});
-    for (const auto& error : at_points) column.values.push_back(row.get(error));
+    auto& column = attributes.columns.emplace_back(Vertex_attributes::Column{row.name, {}});
+    for (const auto& error : at_points) column.values.push_back(row.row->error.get(error));
   }
 }
 
@@ -344,8 +343,9 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
       check(task.volume);
       const bool has_attributes = this->Attributes && *this->Attributes != '\0';
       task.selection = select_attributes(has_attributes ? this->Attributes : "none");
-      constexpr std::size_t errors_of_splines = 2; // the first ones of the table
-      task.errors = selected_errors(task.selection, this->EstimateErrors ? errors_of_splines : 0);
+      const Indexed_triangle_mesh_3<equiaffine::Kernel> none; // slabs and pieces are not a whole mesh
+      selected_vertex_areas(task.selection, none.points, none.triangles);
+      task.errors = this->EstimateErrors ? selected_errors(task.selection, true) : Error_rows();
       require(task.volume.spline_scheme != Spline_scheme::INTERPOLATION || ranks.count() == 1,
               "spline interpolation needs the whole image in one process; choose quasi-interpolation");
       images = images_of(data, this->ArrayComponent, [this](vtkImageData* image) -> vtkDataArray* {

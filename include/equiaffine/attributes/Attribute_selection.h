@@ -5,11 +5,13 @@
 
 #include <equiaffine/attributes/internal/attribute_table.h>
 #include <equiaffine/base/Input_error.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -64,12 +66,17 @@ struct Attribute {
   std::size_t row,       ///< of attribute_table
       component;         ///< of the vector or form in that row; 0 for a scalar
 
-  /// Returns the number from a local structure, or the pack of numbers from a structure of packs. It is NaN for the
-  /// norm of a gradient, which a local structure does not have.
+  /// Returns the number from a sample, or the pack of numbers from a sample of packs. It is NaN for the norm of a
+  /// gradient, which a sample does not have.
+  template <class FT>
+  FT get(const Attribute_sample<FT>& sample) const {
+    const auto getter = attribute_table<FT>[row].get;
+    return getter ? getter(sample, component) : FT(std::numeric_limits<double>::quiet_NaN());
+  }
+  /// The same from a local structure, without a mesh.
   template <class FT>
   FT get(const Local_structure_3<FT>& structure) const {
-    const auto getter = attribute_table<FT>[row].get;
-    return getter ? getter(structure, component) : FT(std::numeric_limits<double>::quiet_NaN());
+    return get(Attribute_sample<FT>(structure));
   }
 };
 
@@ -94,6 +101,21 @@ inline Attribute_selection select_attributes(std::string_view list) {
   return selection;
 }
 
+/// Returns the areas around the vertices of a mesh if a selected attribute needs them, or else nothing.
+/// \throw Input_error if one needs them, and there are no polygons.
+template <class Points, class Polygons>
+std::vector<double> selected_vertex_areas(const Attribute_selection& selection, const Points& points,
+                                          const Polygons& polygons) {
+  for (const Attribute& column : selection.columns) {
+    if (!(attribute_table<double>[column.row].lists & attribute_lists::of_mesh)) continue;
+    if (std::ranges::empty(polygons))
+      throw Input_error("the attribute '" + std::string(column.name) +
+                        "' is only known at the vertices of a whole mesh: leave it out, or give a mesh with faces");
+    return vertex_areas(points, polygons);
+  }
+  return {};
+}
+
 /// The names that select_attributes() reads, vectors and forms by one name each, for a text of help.
 struct Attribute_names {
   std::vector<std::string_view> basic;        ///< in `basic`
@@ -107,7 +129,7 @@ inline Attribute_names attribute_names() {
   using namespace attribute_lists;
   Attribute_names names;
   for (const auto& row : attribute_table<double>) {
-    if (row.lists == none) names.by_name.push_back(row.name);
+    if (!(row.lists & (all | signature))) names.by_name.push_back(row.name);
     if (row.lists & signature) names.signature.push_back(row.name);
     if ((row.lists & basic) == basic) names.basic.push_back(row.name);
     else if (row.lists & all) names.added_by_all.push_back(row.name);

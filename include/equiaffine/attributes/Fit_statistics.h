@@ -3,13 +3,16 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_FIT_STATISTICS_H
 #define EQUIAFFINE_ATTRIBUTES_FIT_STATISTICS_H
 
-#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/attributes/Attribute_selection.h>
+#include <equiaffine/attributes/internal/attribute_table.h>
 #include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -25,19 +28,15 @@ struct Fit_statistics {
   std::optional<double> scale = {}; ///< of the curvatures; nothing if they are the surface's own
   std::array<double, 3> scales{};   ///< the least, median and greatest scale or radius; NaN if there is no fit
   double noise = 0;                 ///< the median of the deviations of the data; NaN if there is no fit
-  /// The parts of the points whose error is below each of `error_bounds`, for each row of error_table.
-  std::array<Parts, error_table<double>.size()> known{};
+  /// The parts of the points whose error is below each of `error_bounds`, for each of `rows_with_error`.
+  std::array<Parts, rows_with_error.size()> known{};
   double without_fit = 0;        ///< the part of the points that have no fit
   double parabolic = 0;          ///< the part of the points that are parabolic
   double doubtful_by_noise = 0;  ///< with an error of K above the last bound, most of it from noise
   double doubtful_by_detail = 0; ///< the same, most of it from what the fits around disagree on
 
-  /// The parts of the points at which an attribute is known. \pre it has a row in error_table
-  const Parts& known_of(std::string_view attribute) const {
-    std::size_t row = 0;
-    while (error_table<double>[row].attribute != attribute) ++row;
-    return known[row];
-  }
+  /// The parts of the points at which an attribute is known. \pre fits estimate its error
+  const Parts& known_of(std::string_view attribute) const { return known[find_row(attribute)->error.place]; }
 };
 
 /// The quantities that affine maps of determinant 1 keep or carry along, as attributes, in the order in which people
@@ -62,6 +61,31 @@ struct Doubt_of_points {
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
+
+/// What an estimate is of: the error; what noise makes; or what detail makes that a scale leaves out.
+enum class Estimate_kind {
+  ERROR, ///< column NAME_error
+  NOISE, ///< column NAME_noise
+  DETAIL ///< column NAME_detail
+};
+
+/// A column with estimates for an attribute.
+struct Estimate_attribute {
+  std::string name;                 ///< as in the header of a file
+  Estimate_kind kind;               ///< what it is of
+  const Attribute_row<double>* row; ///< the row of the attribute
+  bool is_of_splines;               ///< whether splines have it, too, and not fits alone
+
+  /// Returns the column for these points.
+  Vertex_attributes::Column column(std::span<const Fitted_structure_3<double>> structures) const;
+};
+
+/// Returns all estimates, in the order of the columns of a file.
+const std::vector<Estimate_attribute>& estimate_attributes();
+
+/// Returns the selected attributes of points with those structures; `areas` is empty or as in Sampled_vertices.
+Vertex_attributes attributes_of_fit(std::span<const Fitted_structure_3<double>> structures,
+                                    const Attribute_selection& selection, std::span<const double> areas = {});
 
 /// Returns the facts about fits at points, from the structures there.
 Fit_statistics statistics_of_fit(std::span<const Fitted_structure_3<double>> structures);

@@ -4,7 +4,7 @@
 #define EQUIAFFINE_ATTRIBUTES_ANNOTATE_H
 
 #include <equiaffine/attributes/attributes.h>
-#include <equiaffine/attributes/internal/Property_maps.h>
+#include <equiaffine/attributes/internal/maps_of_columns.h>
 #include <equiaffine/attributes/internal/vertex_maps.h>
 #include <equiaffine/base/internal/convert_point.h>
 #include <equiaffine/base/internal/parallel_for.h>
@@ -20,8 +20,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <ranges>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -35,38 +35,52 @@ auto structure_at(const Traits& traits, const Point& p, Point_status before) {
   return local_structure_at(traits, convert_point<Kernel_of<Traits>>(p), before);
 }
 
-/// Fills the maps that are given, for elements with points: vertices of a mesh, or elements of a range. Structures are
-/// computed in parallel. Maps are read and written one after the other, since to read boost::associative_property_map may
-/// change it.
+/// The points of elements, with the kernel of the function.
+template <class Traits, class Elements, class Point_of>
+std::vector<typename Traits::Point_3> points_of_elements(Elements&& elements, const Point_of& point_of) {
+  std::vector<typename Traits::Point_3> points;
+  for (auto&& element : elements) {
+    const auto& p = point_of(element);
+    check_coordinates<std::decay_t<decltype(p)>>();
+    points.push_back(convert_point<Kernel_of<Traits>>(p));
+  }
+  return points;
+}
+
+/// Fills the maps that are given, for elements with points: vertices of a mesh, or elements of a range. Attributes are
+/// computed as by compute_attributes(); whole structures, and those of other numbers than double, one by one, in
+/// threads. Maps are read and written sequentially, because reading boost::associative_property_map may insert an
+/// element.
 template <class ConcurrencyTag, class Elements, class Point_of, class Traits, class Parameters>
 void annotate_elements(Elements&& elements, const Point_of& point_of, const Traits& traits,
                        const Parameters& parameters) {
   static_assert(has_maps<Parameters>(Structure_tags()),
                 "annotate() has nothing to write to: give it property maps, such as "
                 "parameters::vertex_affine_mean_curvature_map(map), or a CGAL::Surface_mesh that is not const");
-  constexpr std::size_t most_at_once = 1 << 16;
-  using std::begin, std::end; // or the functions of the range
-  auto next = begin(elements);
-  const auto last = end(elements);
-  std::vector<std::decay_t<decltype(next)>> places;
-  std::vector<std::decay_t<decltype(point_of(*next))>> points;
+  const auto points = points_of_elements<Traits>(elements, point_of);
   std::vector<Point_status> before;
-  std::vector<Local_structure_3<typename Traits::FT>> structures;
-  while (next != last) {
-    places.clear();
-    points.clear();
-    before.clear();
-    for (; next != last && places.size() < most_at_once; ++next) {
-      places.push_back(next);
-      points.push_back(point_of(*next));
-      before.push_back(status_before(parameters, *next));
-    }
-    structures.resize(places.size());
-    parallel_for<ConcurrencyTag>(
-        0, places.size(), [&](std::size_t i) { structures[i] = structure_at(traits, points[i], before[i]); }, 256);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      auto&& element = *places[i];
-      put_structure(parameters, element, structures[i], Structure_tags());
+  for (auto&& element : elements) before.push_back(status_before(parameters, element));
+  if constexpr (std::is_same_v<typename Traits::FT, double> && !has_parameter<Vertex_structure_tag, Parameters>) {
+    const auto attributes =
+        compute_columns<ConcurrencyTag>(traits, points, selection_of_given_maps<Parameters>(Number_tags()), before);
+    fill_given_maps(
+        elements, parameters, [&](const std::string& name) -> const auto& { return *find_column(attributes, name); },
+        Number_tags());
+    fill_status_map(elements, parameters, *attributes.status);
+  } else {
+    constexpr std::size_t most_at_once = 1 << 16;
+    std::vector<Local_structure_3<typename Traits::FT>> structures;
+    std::size_t next = 0, end = 0;
+    for (auto&& element : elements) {
+      if (next == end) {
+        end = std::min(next + most_at_once, points.size());
+        structures.resize(end - next);
+        parallel_for<ConcurrencyTag>(
+            0, structures.size(),
+            [&](std::size_t i) { structures[i] = local_structure_at(traits, points[next + i], before[next + i]); },
+            256);
+      }
+      put_structure(parameters, element, structures[next++ % most_at_once], Structure_tags());
     }
   }
 }
@@ -74,16 +88,14 @@ void annotate_elements(Elements&& elements, const Point_of& point_of, const Trai
 /// Fills the maps `v:NAME` of a surface mesh with all that is known of its vertices.
 template <class ConcurrencyTag, class Mesh, class Point_of, class Traits>
 void annotate_surface_mesh(Mesh& mesh, const Point_of& point_of, const Traits& traits) {
-  using Vertex_index = typename Mesh::Vertex_index;
   check_mesh_for_maps<Mesh>();
-  Property_maps<Mesh> maps(mesh);
-  parallel_for<ConcurrencyTag>(
-      0, mesh.num_vertices(), // with removed ones
-      [&](std::size_t i) {
-        const Vertex_index v{static_cast<typename Vertex_index::size_type>(i)};
-        if (!mesh.is_removed(v)) maps.set(v, structure_at(traits, point_of(v), maps.status(v)));
-      },
-      256);
+  const auto points = points_of_elements<Traits>(mesh.vertices(), point_of);
+  std::vector<Point_status> before;
+  if (const auto status = Named_maps<Mesh>::template find<Point_status>(mesh, "v:status"))
+    for (const auto v : mesh.vertices()) before.push_back((*status)[v]);
+  const auto areas = areas_of_surface_mesh(mesh, points);
+  const auto selection = selection_of_named_maps(!areas.empty());
+  add_named_maps(mesh, mesh.vertices(), compute_columns<ConcurrencyTag>(traits, points, selection, {before, areas}));
 }
 
 } // namespace equiaffine::internal
@@ -119,7 +131,8 @@ namespace equiaffine {
 ///
 /// A CGAL::Surface_mesh without such a map gets `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`,
 /// `v:direction1`, `v:direction2` (Vector_3), and one of FT for every other attribute in doc/program.md but the
-/// norms of gradients: `v:k1`, `v:metric_xx`, `v:quadric_defect` and so on. These have the sign of
+/// norms of gradients: `v:k1`, `v:metric_xx`, `v:quadric_defect` and so on. `v:vertex_area` and `v:affine_area` need
+/// faces; polygons with n corners give each the n-th part of their area. The maps have the sign of
 /// Euclidean_structure_3: on a unit sphere with f < 0 inside, `v:mean_curvature` is -1, and what is put into
 /// `vertex_mean_curvature_map` is 1.
 ///

@@ -3,14 +3,15 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_ANNOTATE_BY_FIT_H
 #define EQUIAFFINE_ATTRIBUTES_ANNOTATE_BY_FIT_H
 
-#include <equiaffine/attributes/internal/Property_maps.h>
-#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/attributes/Fit_statistics.h>
+#include <equiaffine/attributes/internal/maps_of_columns.h>
 #include <equiaffine/attributes/internal/vertex_maps.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/Fit_options.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/mesh/internal/Face_graph.h>
+#include <equiaffine/mesh/internal/indexed_polygons.h>
 
 #include <CGAL/boost/graph/graph_traits_Surface_mesh.h>
 #include <CGAL/property_map.h>
@@ -19,7 +20,6 @@
 #include <concepts>
 #include <cstddef>
 #include <ranges>
-#include <string>
 #include <vector>
 
 namespace equiaffine::internal {
@@ -55,24 +55,17 @@ void put_structures_of_fit(const Parameters& parameters, Elements&& elements,
 }
 
 /// Fills the maps `v:NAME` of a surface mesh with all that is known of its vertices.
-template <class Mesh>
-void fill_maps_of_fit(Mesh& mesh, const std::vector<Fitted_structure_3<double>>& structures) {
+template <class Mesh, class Parameters>
+void fill_maps_of_fit(Mesh& mesh, const Parameters& parameters,
+                      const std::vector<Fitted_structure_3<double>>& structures) {
   check_mesh_for_maps<Mesh>();
-  using Maps = Property_maps<Mesh>;
-  Maps maps(mesh);
-  std::vector<typename Mesh::template Property_map<typename Mesh::Vertex_index, double>> errors;
-  for (const auto& row : error_table<double>)
-    errors.push_back(Maps::template add<double>(mesh, std::string(row.attribute) + "_error"));
-  auto gaussian_noise = Maps::template add<double>(mesh, "affine_gaussian_curvature_noise");
-  auto mean_noise = Maps::template add<double>(mesh, "affine_mean_curvature_noise");
-  std::size_t i = 0;
-  for (const auto v : mesh.vertices()) {
-    const auto& s = structures[i++];
-    maps.set(v, s.structure);
-    for (std::size_t n = 0; n < errors.size(); ++n) errors[n][v] = error_table<double>[n].get(s.error);
-    gaussian_noise[v] = s.noise.affine_gaussian_curvature;
-    mean_noise[v] = s.noise.affine_mean_curvature;
-  }
+  std::vector<typename Mesh::Point> points;
+  for (const auto v : mesh.vertices()) points.push_back(get(vertex_points(mesh, parameters), v));
+  const auto areas = areas_of_surface_mesh(mesh, points);
+  auto attributes = attributes_of_fit(structures, selection_of_named_maps(!areas.empty()), areas);
+  for (const Estimate_attribute& estimate : estimate_attributes())
+    attributes.columns.push_back(estimate.column(structures));
+  add_named_maps(mesh, mesh.vertices(), attributes);
 }
 
 } // namespace equiaffine::internal
@@ -96,9 +89,8 @@ namespace equiaffine {
 /// | `vertex_Gaussian_curvature_error_map` | map of numbers | none | of K_e |
 /// | `vertex_unit_normal_error_map` | map of numbers | none | of n, in degrees |
 ///
-/// A CGAL::Surface_mesh without such a map gets the maps that annotate() gives it, the estimates `v:NAME_error` of the
-/// errors of NAMEs that doc/program.md lists, and `v:affine_gaussian_curvature_noise` and
-/// `v:affine_mean_curvature_noise`.
+/// A CGAL::Surface_mesh without such a map gets the maps that annotate() gives it, and one for each estimate that
+/// doc/program.md lists: `v:NAME_error`, and `v:NAME_noise` and `v:NAME_detail` for the affine curvatures.
 ///
 /// Named parameters come in one chain or several, equiaffine's and CGAL's.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>
@@ -109,7 +101,7 @@ void annotate_by_fit(Graph& mesh, const Fit_options& options, Orientation_of_lev
   const Joined parameters = internal::joined_parameters(given...);
   const auto structures = internal::fitted_structures_of_graph<ConcurrencyTag>(mesh, options, orientation, parameters);
   if constexpr (internal::is_surface_mesh<Graph> && !internal::has_maps_of_fit<Joined>)
-    internal::fill_maps_of_fit(mesh, structures);
+    internal::fill_maps_of_fit(mesh, parameters, structures);
   else internal::put_structures_of_fit(parameters, vertices_of(mesh), structures);
 }
 /// The same with normals on the side of the mesh.

@@ -126,14 +126,18 @@ struct Attribute_rows {
   const std::vector<Attribute>& attributes;
   std::vector<Vertex_attributes::Column>& columns; ///< one per attribute
   std::vector<Point_status>& statuses;
+  std::span<const double> areas;        ///< of vertices of a mesh, or empty
   std::span<const std::size_t> numbers; ///< of the points of the block, which are also those of their rows
 
   double& number(std::size_t row, std::size_t column) const { return columns[column].values[numbers[row]]; }
   Point_status& status(std::size_t row) const { return statuses[numbers[row]]; }
+  double area(std::size_t row) const { return areas[numbers[std::min(row, numbers.size() - 1)]]; }
 
   void set(std::size_t row, const Local_structure_3<double>& structure) const {
     status(row) = structure.status;
-    for (std::size_t c = 0; c < attributes.size(); ++c) number(row, c) = attributes[c].get(structure);
+    Attribute_sample<double> sample(structure);
+    if (!areas.empty()) sample.vertex_area = area(row);
+    for (std::size_t c = 0; c < attributes.size(); ++c) number(row, c) = attributes[c].get(sample);
   }
 };
 
@@ -143,8 +147,10 @@ inline void measure_pack(const Expanded_block& block, std::size_t n, const Attri
   using Lanes = Expanded_block::Lanes;
   const auto pack = regular_structure(block.jets[n], block.points_of_pack(n), block.rounding_of_pack(n));
   const std::size_t begin = n * Lanes::size, count = std::min(Lanes::size, block.number_of_points - begin);
+  Attribute_sample<Lanes> sample(pack.structure);
+  if (!rows.areas.empty()) sample.vertex_area = Lanes::generate([&](std::size_t i) { return rows.area(begin + i); });
   for (std::size_t c = 0; c < rows.attributes.size(); ++c) {
-    const Lanes numbers = rows.attributes[c].get(pack.structure);
+    const Lanes numbers = rows.attributes[c].get(sample);
     for (std::size_t i = 0; i < count; ++i) rows.number(begin + i, c) = numbers[i];
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -171,9 +177,10 @@ void measure_gradients(const Traits& traits, std::span<const typename Traits::Po
 /// The work of compute_attributes().
 template <class ConcurrencyTag, class Traits>
 Vertex_attributes compute_columns(const Traits& traits, std::span<const typename Traits::Point_3> points,
-                                  const Attribute_selection& selection, std::span<const Point_status> sampled_status) {
-  check_argument(sampled_status.empty() || sampled_status.size() == points.size(),
-                 "attributes are given the statuses of another number of points: give one per point, or none");
+                                  const Attribute_selection& selection, const Sampled_vertices& sampled) {
+  for (const std::size_t size : {sampled.status.size(), sampled.areas.size()})
+    check_argument(size == 0 || size == points.size(),
+                   "attributes are given statuses or areas of another number of points: give one per point, or none");
   Vertex_attributes result;
   if (selection.columns.empty() && !selection.has_status) return result;
   for (const Attribute& attribute : selection.columns) {
@@ -191,12 +198,12 @@ Vertex_attributes compute_columns(const Traits& traits, std::span<const typename
         std::array<typename Traits::Point_3, Expanded_block::points> points_of_block;
         for (std::size_t n = 0; n < numbers.size(); ++n) points_of_block[n] = points[numbers[n]];
         const auto block = std::span<const typename Traits::Point_3>(points_of_block).first(numbers.size());
-        const Attribute_rows rows{selection.columns, result.columns, status, numbers};
+        const Attribute_rows rows{selection.columns, result.columns, status, sampled.areas, numbers};
         const Expanded_block expanded = expand_block(local, block);
         for (std::size_t n = 0; n < expanded.number_of_packs(); ++n) measure_pack(expanded, n, rows);
         measure_gradients(local, block, rows);
-        if (sampled_status.empty()) return;
-        for (const std::size_t n : numbers) status[n] = status_after_sampling(status[n], sampled_status[n]);
+        if (sampled.status.empty()) return;
+        for (const std::size_t n : numbers) status[n] = status_after_sampling(status[n], sampled.status[n]);
       });
   if (selection.has_status) result.status = std::move(status);
   return result;
@@ -230,7 +237,9 @@ Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, 
 /// local_structure_at: bit for bit if the compiler rounds each product and each sum (-ffp-contract=off), else to within
 /// rounding.
 ///
-/// `sampled_status` is empty or has one entry per point, as in local_structure_at. \throw std::invalid_argument otherwise
+/// `sampled` has statuses, as in local_structure_at, and the areas for `vertex_area` and `affine_area`, which are NaN
+/// without them. Either is empty or has one entry per point.
+/// \throw std::invalid_argument otherwise
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
@@ -238,12 +247,25 @@ Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, 
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           internal::Parameter_chain... Parameters>
 Vertex_attributes compute_attributes(const Traits& traits, std::span<const typename Traits::Point_3> points,
-                                     const Attribute_selection& selection,
-                                     std::span<const Point_status> sampled_status = {}, const Parameters&...) {
+                                     const Attribute_selection& selection, const Sampled_vertices& sampled = {},
+                                     const Parameters&...) {
   static_assert(std::is_same_v<typename Traits::FT, double>);
   internal::check_parameters<internal::Joined_parameters<Parameters...>, internal::Geom_traits_tag,
                              internal::Verbose_tag>();
-  return internal::compute_columns<ConcurrencyTag>(traits, points, selection, sampled_status);
+  return internal::compute_columns<ConcurrencyTag>(traits, points, selection, sampled);
+}
+
+/// The same for the vertices of a mesh, whose areas are those of its triangles.
+/// \throw Input_error if an attribute needs triangles, and there are none
+template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Kernel,
+          internal::Parameter_chain... Parameters>
+Vertex_attributes compute_attributes(const Traits& traits, const Indexed_triangle_mesh_3<Kernel>& mesh,
+                                     const Attribute_selection& selection,
+                                     std::span<const Point_status> sampled_status = {},
+                                     const Parameters&... parameters) {
+  const auto areas = selected_vertex_areas(selection, mesh.points, mesh.triangles);
+  return compute_attributes<ConcurrencyTag>(traits, std::span(mesh.points), selection,
+                                            Sampled_vertices(sampled_status, areas), parameters...);
 }
 
 } // namespace equiaffine

@@ -3,7 +3,7 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_REMESH_BY_FIT_H
 #define EQUIAFFINE_ATTRIBUTES_REMESH_BY_FIT_H
 
-#include <equiaffine/attributes/internal/error_table.h>
+#include <equiaffine/attributes/internal/attribute_table.h>
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/index_sets.h>
 #include <equiaffine/base/internal/parallel_for.h>
@@ -27,6 +27,7 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -74,11 +75,11 @@ std::array<double, 2> parts_known(const Fitted_function_traits_3<Kernel>& fit,
   std::array<double, 2> parts = {};
   for (const std::size_t i : some) {
     const auto fitted = fit.structure(data[i]);
-    for (const auto& row : error_table<double>) {
-      if (!row.is_known(fitted.structure, fitted.error, Remesh_thresholds::known)) continue;
-      parts[0] += double(row.attribute == "affine_area_density") / double(some.size());
-      parts[1] += double(row.attribute == "affine_gaussian_curvature") / double(some.size());
-    }
+    const auto known = [&](std::string_view attribute) {
+      return find_row(attribute)->error.is_known(fitted.structure, fitted.error, Remesh_thresholds::known);
+    };
+    parts[0] += double(known("affine_area_density")) / double(some.size());
+    parts[1] += double(known("affine_gaussian_curvature")) / double(some.size());
   }
   return parts;
 }

@@ -52,15 +52,18 @@ struct Vertex_conormal_tag {};
 struct Vertex_pick_invariant_tag {};
 struct Vertex_affine_metric_tag {};
 struct Vertex_affine_area_density_tag {};
-struct Vertex_affine_mean_curvature_error_tag {};
-struct Vertex_affine_Gaussian_curvature_error_tag {};
-struct Vertex_affine_normal_error_tag {};
-struct Vertex_conormal_error_tag {};
-struct Vertex_pick_invariant_error_tag {};
-struct Vertex_affine_area_density_error_tag {};
-struct Vertex_mean_curvature_error_tag {};
-struct Vertex_Gaussian_curvature_error_tag {};
-struct Vertex_unit_normal_error_tag {};
+/// The tag of the map of errors of what the map with a tag has.
+template <class Tag>
+struct Error_tag {};
+using Vertex_affine_mean_curvature_error_tag = Error_tag<Vertex_affine_mean_curvature_tag>;
+using Vertex_affine_Gaussian_curvature_error_tag = Error_tag<Vertex_affine_Gaussian_curvature_tag>;
+using Vertex_affine_normal_error_tag = Error_tag<Vertex_affine_normal_tag>;
+using Vertex_conormal_error_tag = Error_tag<Vertex_conormal_tag>;
+using Vertex_pick_invariant_error_tag = Error_tag<Vertex_pick_invariant_tag>;
+using Vertex_affine_area_density_error_tag = Error_tag<Vertex_affine_area_density_tag>;
+using Vertex_mean_curvature_error_tag = Error_tag<Vertex_mean_curvature_tag>;
+using Vertex_Gaussian_curvature_error_tag = Error_tag<Vertex_Gaussian_curvature_tag>;
+using Vertex_unit_normal_error_tag = Error_tag<Vertex_unit_normal_tag>;
 
 /// The empty chain of parameters.
 struct No_parameters {};

@@ -66,16 +66,16 @@ Isosurface_3<Kernel> marching_cubes(const Level_set_traits_3<Spline>& level_set,
                                     Instruction_set set = instruction_sets().back());
 
 /// Computes the selected attributes of points as equiaffine::compute_attributes() does, by the same number of expansions,
-/// in threads if the library is compiled with TBB. `sampled_status` is empty or has one entry per point.
-/// \throw std::invalid_argument if it has another number of entries, or `set` is not in instruction_sets()
+/// in threads if the library is compiled with TBB. `sampled` is what that function takes.
+/// \throw std::invalid_argument if it has another number of statuses or areas, or `set` is not in instruction_sets()
 Vertex_attributes compute_attributes(const Level_set_traits_3<Formula>& level_set,
                                      std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
-                                     std::span<const Point_status> sampled_status = {},
+                                     const Sampled_vertices& sampled = {},
                                      Instruction_set set = instruction_sets().back());
 /// The same for a spline.
 Vertex_attributes compute_attributes(const Level_set_traits_3<Spline>& level_set,
                                      std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
-                                     std::span<const Point_status> sampled_status = {},
+                                     const Sampled_vertices& sampled = {},
                                      Instruction_set set = instruction_sets().back());
 
 /// The greatest distance of points from a level set, to first order, as equiaffine::max_distance_to_surface() computes

@@ -5,11 +5,16 @@
 
 #include <equiaffine/geometry/Point_status.h>
 
+#include <CGAL/number_utils.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +28,27 @@ struct Indexed_triangle_mesh_3 {
   std::vector<typename Kernel::Point_3> points;        ///< the vertices
   std::vector<std::array<std::uint32_t, 3>> triangles; ///< three indices each
 };
+
+/// Adds its share in the area of a polygon, a range of indices of points, to the area of each corner. The area of a
+/// polygon with more than three corners is that of its projection along the sum of the normals of a fan.
+template <class Points, class Polygon>
+void add_vertex_areas(const Points& points, const Polygon& polygon, std::vector<double>& areas) {
+  const auto& p = points[polygon[0]];
+  auto normal = cross_product(points[polygon[1]] - p, points[polygon[2]] - p);
+  for (std::size_t n = 3; n < polygon.size(); ++n)
+    normal = normal + cross_product(points[polygon[n - 1]] - p, points[polygon[n]] - p);
+  const double share = std::sqrt(CGAL::to_double(normal.squared_length())) / double(2 * polygon.size());
+  for (const auto corner : polygon) areas[corner] += share;
+}
+
+/// Returns the area of a mesh around each vertex: a third of that of the triangles around it, or the n-th part for
+/// polygons with n corners. Linear in the size of the mesh.
+template <class Points, class Polygons>
+std::vector<double> vertex_areas(const Points& points, const Polygons& polygons) {
+  std::vector<double> areas(points.size(), 0.);
+  for (const auto& polygon : polygons) add_vertex_areas(points, polygon, areas);
+  return areas;
+}
 
 /// A chain of points, closed or not. A closed one does not repeat its first point.
 template <class Kernel>
@@ -51,6 +77,24 @@ struct Isosurface_3 : Indexed_triangle_mesh_3<Kernel> {
   std::size_t function_evaluations = 0; ///< of f, with or without derivatives
   double sampling_seconds = 0,          ///< the time that it took to evaluate the function and to make the mesh
       projection_seconds = 0;           ///< the time that it took to put vertices on the surface
+};
+
+/// What is known of points before their attributes are computed. Each is empty, or has one entry per point.
+struct Sampled_vertices {
+  std::span<const Point_status> status; ///< of the sampler
+  std::span<const double> areas;        ///< of vertex_areas()
+
+  Sampled_vertices() = default; ///< nothing is known
+  /// The statuses, a range that is a span of them, and the areas.
+  template <std::convertible_to<std::span<const Point_status>> Statuses>
+  Sampled_vertices(const Statuses& statuses, std::span<const double> vertex_areas = {})
+      : status(statuses), areas(vertex_areas) {}
+
+  /// Returns those of `count` points from the given one on.
+  Sampled_vertices part(std::size_t first, std::size_t count) const {
+    const auto part_of = [&](auto span) { return span.empty() ? span : span.subspan(first, count); };
+    return {part_of(status), part_of(areas)};
+  }
 };
 
 /// Numbers attached to points, one column per scalar in the order of the file, and the status, if it was asked for. A

@@ -2,15 +2,16 @@
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_VERTEX_MAPS_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_VERTEX_MAPS_H
 
+#include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/base/named_parameters.h>
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/geometry/Local_structure_3.h>
-#include <equiaffine/geometry/affine_structure.h>
 
 #include <CGAL/property_map.h>
 
 #include <array>
 #include <cstddef>
+#include <string_view>
 #include <type_traits>
 
 // The values that annotate() and annotate_by_fit() put into the property maps that they are given.
@@ -32,83 +33,75 @@ struct Principal_curvatures {
   std::array<FT, 3> direction_of_least, direction_of_greatest;
 };
 
-// The value for the map with a tag, from a Local_structure_3 or a Fitted_structure_3.
-template <class S>
-auto value_for(Vertex_status_tag, const S& s) {
-  return structure_in(s).status;
+// The attributes in the map with a tag.
+constexpr std::string_view attribute_of(Vertex_unit_normal_tag) { return "normal"; }
+constexpr std::string_view attribute_of(Vertex_mean_curvature_tag) { return "mean_curvature"; }
+constexpr std::string_view attribute_of(Vertex_Gaussian_curvature_tag) { return "gaussian_curvature"; }
+constexpr std::string_view attribute_of(Vertex_affine_mean_curvature_tag) { return "affine_mean_curvature"; }
+constexpr std::string_view attribute_of(Vertex_affine_Gaussian_curvature_tag) { return "affine_gaussian_curvature"; }
+constexpr std::string_view attribute_of(Vertex_affine_normal_tag) { return "affine_normal"; }
+constexpr std::string_view attribute_of(Vertex_conormal_tag) { return "conormal"; }
+constexpr std::string_view attribute_of(Vertex_pick_invariant_tag) { return "pick_invariant"; }
+constexpr std::string_view attribute_of(Vertex_affine_metric_tag) { return "metric"; }
+constexpr std::string_view attribute_of(Vertex_affine_area_density_tag) { return "affine_area_density"; }
+template <class Tag>
+constexpr std::string_view attribute_of(Error_tag<Tag>) {
+  return attribute_of(Tag());
 }
-template <class S>
-const S& value_for(Vertex_structure_tag, const S& s) {
-  return s;
+template <class Tag>
+inline constexpr std::array attributes_of = {attribute_of(Tag())};
+template <>
+inline constexpr std::array<std::string_view, 4> attributes_of<Vertex_principal_curvatures_tag> = {
+    "k1", "k2", "direction1", "direction2"};
+
+template <class Tag>
+inline constexpr bool is_error_tag = false;
+template <class Tag>
+inline constexpr bool is_error_tag<Error_tag<Tag>> = true;
+
+/// The columns whose numbers make the value in the map with a tag. For an error it is a column of the attribute.
+template <class Tag>
+inline constexpr auto columns_of = [] {
+  constexpr auto size_of = [](std::string_view name) { return is_error_tag<Tag> ? 1 : find_row(name)->size(); };
+  constexpr std::size_t size = [&] {
+    std::size_t sum = 0;
+    for (const std::string_view name : attributes_of<Tag>) sum += size_of(name);
+    return sum;
+  }();
+  std::array<Attribute, size> columns{};
+  std::size_t n = 0;
+  for (const std::string_view name : attributes_of<Tag>)
+    for (std::size_t i = 0; i < size_of(name); ++i)
+      columns[n++] = {find_row(name)->column(i), std::size_t(find_row(name) - attribute_table<double>.data()), i};
+  return columns;
+}();
+
+/// Mean curvatures in maps of CGAL have the opposite sign.
+template <class Tag>
+inline constexpr int sign_in_maps = std::is_same_v<Tag, Vertex_mean_curvature_tag> ? -1 : 1;
+
+/// The value in the map with a tag, from the numbers of its columns.
+template <class Tag, class FT, std::size_t Size>
+auto value_of(Tag, const std::array<FT, Size>& n) {
+  if constexpr (std::is_same_v<Tag, Vertex_principal_curvatures_tag>)
+    return Principal_curvatures<FT>{-n[0], -n[1], {n[2], n[3], n[4]}, {n[5], n[6], n[7]}};
+  else if constexpr (Size == 1) return FT(sign_in_maps<Tag> * n[0]);
+  else return n;
 }
-template <class S>
-auto value_for(Vertex_unit_normal_tag, const S& s) {
-  return structure_in(s).euclidean.normal;
+
+/// The value in the map with a tag, from a Local_structure_3 or a Fitted_structure_3.
+template <class Tag, class S>
+auto value_for(Tag tag, const S& s) {
+  const auto& structure = structure_in(s);
+  if constexpr (std::is_same_v<Tag, Vertex_status_tag>) return structure.status;
+  else if constexpr (std::is_same_v<Tag, Vertex_structure_tag>) return s;
+  else if constexpr (is_error_tag<Tag>) return attribute_table<double>[columns_of<Tag>[0].row].error.get(s.error);
+  else {
+    std::array<std::decay_t<decltype(structure.euclidean.k1)>, columns_of<Tag>.size()> numbers;
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = columns_of<Tag>[i].get(structure);
+    return value_of(tag, numbers);
+  }
 }
-template <class S>
-auto value_for(Vertex_mean_curvature_tag, const S& s) {
-  return -structure_in(s).euclidean.mean_curvature;
-}
-template <class S>
-auto value_for(Vertex_Gaussian_curvature_tag, const S& s) {
-  return structure_in(s).euclidean.gaussian_curvature;
-}
-template <class S>
-auto value_for(Vertex_principal_curvatures_tag, const S& s) {
-  const auto& e = structure_in(s).euclidean;
-  return Principal_curvatures{-e.k1, -e.k2, e.direction1, e.direction2};
-}
-template <class S>
-auto value_for(Vertex_affine_mean_curvature_tag, const S& s) {
-  return structure_in(s).affine.mean_curvature;
-}
-template <class S>
-auto value_for(Vertex_affine_Gaussian_curvature_tag, const S& s) {
-  return structure_in(s).affine.gaussian_curvature;
-}
-template <class S>
-auto value_for(Vertex_affine_normal_tag, const S& s) {
-  return structure_in(s).affine.normal;
-}
-template <class S>
-auto value_for(Vertex_conormal_tag, const S& s) {
-  return structure_in(s).affine.conormal;
-}
-template <class S>
-auto value_for(Vertex_pick_invariant_tag, const S& s) {
-  return structure_in(s).affine.pick_invariant;
-}
-template <class S>
-auto value_for(Vertex_affine_metric_tag, const S& s) {
-  return structure_in(s).affine.metric;
-}
-template <class S>
-auto value_for(Vertex_affine_area_density_tag, const S& s) {
-  return affine_area_density(structure_in(s).euclidean.gaussian_curvature);
-}
-inline double value_for(Vertex_affine_mean_curvature_error_tag, const Fitted_structure_3<double>& s) {
-  return s.error.affine_mean_curvature;
-}
-inline double value_for(Vertex_affine_Gaussian_curvature_error_tag, const Fitted_structure_3<double>& s) {
-  return s.error.affine_gaussian_curvature;
-}
-inline double value_for(Vertex_affine_normal_error_tag, const Fitted_structure_3<double>& s) {
-  return s.error.affine_normal;
-}
-inline double value_for(Vertex_conormal_error_tag, const Fitted_structure_3<double>& s) { return s.error.normal; }
-inline double value_for(Vertex_pick_invariant_error_tag, const Fitted_structure_3<double>& s) {
-  return s.error.pick_invariant;
-}
-inline double value_for(Vertex_affine_area_density_error_tag, const Fitted_structure_3<double>& s) {
-  return s.error.affine_area_density;
-}
-inline double value_for(Vertex_mean_curvature_error_tag, const Fitted_structure_3<double>& s) {
-  return s.error.euclidean_mean_curvature;
-}
-inline double value_for(Vertex_Gaussian_curvature_error_tag, const Fitted_structure_3<double>& s) {
-  return s.error.euclidean_gaussian_curvature;
-}
-inline double value_for(Vertex_unit_normal_error_tag, const Fitted_structure_3<double>& s) { return s.error.normal; }
 
 template <class Map>
 concept Property_map = requires {
@@ -117,13 +110,17 @@ concept Property_map = requires {
 
 template <class... Tags>
 struct Tag_list {};
+template <class... First, class... Second>
+Tag_list<First..., Second...> concatenated(Tag_list<First...>, Tag_list<Second...>);
 
-/// The maps that annotate() fills, and those that fits have beside them.
-using Structure_tags =
-    Tag_list<Vertex_status_tag, Vertex_structure_tag, Vertex_unit_normal_tag, Vertex_mean_curvature_tag,
-             Vertex_Gaussian_curvature_tag, Vertex_principal_curvatures_tag, Vertex_affine_mean_curvature_tag,
-             Vertex_affine_Gaussian_curvature_tag, Vertex_affine_normal_tag, Vertex_conormal_tag,
-             Vertex_pick_invariant_tag, Vertex_affine_metric_tag, Vertex_affine_area_density_tag>;
+/// The maps of one attribute, all maps of numbers that annotate() fills, all of its maps, and those that fits have
+/// beside them.
+using Attribute_tags =
+    Tag_list<Vertex_unit_normal_tag, Vertex_mean_curvature_tag, Vertex_Gaussian_curvature_tag,
+             Vertex_affine_mean_curvature_tag, Vertex_affine_Gaussian_curvature_tag, Vertex_affine_normal_tag,
+             Vertex_conormal_tag, Vertex_pick_invariant_tag, Vertex_affine_metric_tag, Vertex_affine_area_density_tag>;
+using Number_tags = decltype(concatenated(Attribute_tags(), Tag_list<Vertex_principal_curvatures_tag>()));
+using Structure_tags = decltype(concatenated(Tag_list<Vertex_status_tag, Vertex_structure_tag>(), Number_tags()));
 using Error_tags = Tag_list<Vertex_affine_mean_curvature_error_tag, Vertex_affine_Gaussian_curvature_error_tag,
                             Vertex_affine_normal_error_tag, Vertex_conormal_error_tag, Vertex_pick_invariant_error_tag,
                             Vertex_affine_area_density_error_tag, Vertex_mean_curvature_error_tag,

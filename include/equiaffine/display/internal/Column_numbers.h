@@ -6,10 +6,9 @@
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
 
 #include <CGAL/Bbox_3.h>
-#include <CGAL/number_utils.h>
 
 #include <cmath>
-#include <cstdint>
+#include <numeric>
 #include <vector>
 
 // The library defines the members that have no body here.
@@ -18,28 +17,12 @@
 #endif
 namespace equiaffine {
 
-/// A third of the area of the triangles around each vertex; 1 for every vertex if there is no area.
-template <class Kernel>
-std::vector<double> vertex_areas(const Indexed_triangle_mesh_3<Kernel>& mesh) {
-  std::vector<double> areas(mesh.points.size(), 0.);
-  double total = 0;
-  for (const auto& triangle : mesh.triangles) {
-    const auto& p = mesh.points[triangle[0]];
-    const auto normal = cross_product(mesh.points[triangle[1]] - p, mesh.points[triangle[2]] - p);
-    const double share = std::sqrt(CGAL::to_double(normal.squared_length())) / 6;
-    for (const std::uint32_t vertex : triangle) areas[vertex] += share;
-    total += share;
-  }
-  if (!(total > 0)) areas.assign(areas.size(), 1.);
-  return areas;
-}
-
 /// The numbers of a column that decide on its colors: those that are known to one digit, or all if none is. The rules
 /// by which numbers get their colors are here, for pages and pictures.
 class Column_numbers {
 public:
-  /// Numbers closer than `resolution` are equal up to rounding; `areas` are those of `vertex_areas`; `is_known` and `errors`
-  /// are empty if there are no errors.
+  /// Numbers closer than `resolution` are equal up to rounding; `areas` weigh them; `is_known` and `errors` are
+  /// empty if there are no errors.
   Column_numbers(const std::vector<double>& values, const std::vector<bool>& is_known,
                  const std::vector<double>& errors, const std::vector<double>& areas, double resolution);
 
@@ -75,7 +58,8 @@ class Numbers_of_mesh {
 public:
   template <class Kernel>
   Numbers_of_mesh(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes)
-      : attributes_(attributes), areas_(vertex_areas(mesh)) {
+      : attributes_(attributes), areas_(vertex_areas(mesh.points, mesh.triangles)) {
+    if (!(std::accumulate(areas_.begin(), areas_.end(), 0.) > 0)) areas_.assign(areas_.size(), 1.);
     CGAL::Bbox_3 box;
     for (const auto& point : mesh.points) box += point.bbox();
     if (!mesh.points.empty()) diagonal_ = std::hypot(box.x_span(), box.y_span(), box.z_span());
@@ -85,7 +69,7 @@ public:
 
 private:
   const Vertex_attributes& attributes_;
-  std::vector<double> areas_;
+  std::vector<double> areas_; // 1 for every vertex if there is no area
   double diagonal_ = 0;
 };
 
