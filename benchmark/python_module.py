@@ -45,7 +45,7 @@ def time_beside_program(ea, program, folder):
     cases = {
         "formula at 256^3": (["--function", BLOBBY, "--box", *box, "--resolution", "256"],
                              lambda: ea.mesh(BLOBBY, box=1.2, resolution=256)),
-        "volume of 256^3 floats": (["--volume", folder / "v.nrrd", "--isovalue", "0.5"], lambda: ea.mesh(samples, level=0.5)),
+        "volume of 256^3 floats": (["--volume", folder / "v.nrrd", "--level", "0.5"], lambda: ea.mesh(samples, level=0.5)),
     }
     for name, (words, call) in cases.items():
         def run_program():

@@ -46,7 +46,7 @@ def half(vertices, faces, random):
 
 
 def by_equiaffine(source, target):
-    return ea.register(source, target, kind="rigid", reflection=False).matrix
+    return ea.register(source, target, kind="rigid", reflections=False).matrix
 
 
 def by_open3d(source, target, part):

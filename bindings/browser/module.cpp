@@ -56,7 +56,7 @@ EXPORTED int eq_page() {
     const auto center = internal::center_of(surface.mesh.points);
     const equiaffine::Parabolic_parts parabolic(surface.mesh.triangles, surface.attributes);
     const equiaffine::Numbers_of_mesh numbers(surface.mesh, surface.attributes);
-    surface.facts = internal::page_facts(numbers, surface.attributes, equiaffine::Html_options(), center, parabolic);
+    surface.facts = internal::page_facts(numbers, surface.attributes, equiaffine::Display_options(), center, parabolic);
     surface.floats.clear();
     surface.floats.reserve(surface.mesh.points.size() * (3 + surface.attributes.columns.size()));
     for (const auto& p : surface.mesh.points)

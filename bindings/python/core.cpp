@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The module equiaffine._core: the commands of the program on arrays. Options come as words of its command line, so that
-// both refuse the same and compute the same; equiaffine/_arguments.py makes these words of keyword arguments.
+// The module equiaffine._core: the commands of the program on arrays. The program's table of options reads keyword
+// arguments, so that both refuse the same and compute the same.
 #include "arrays.h"
 #include "attributes/estimates.h"
 #include "cli/parse_options.h"
@@ -8,18 +8,19 @@
 #include "commands/find_maps.h"
 #include "commands/make_surface.h"
 #include "observed.h"
+#include "options.h"
 #include "output/displays.h"
 #include "output/maps.h"
 #include "source/read_mesh.h"
 #include "source/source_function.h"
 #include "source/warnings.h"
+#include "system/front_end.h"
 #include "volume/volume_io.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/parallel_for.h>
 
 #include <CGAL/tags.h>
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,7 +32,6 @@ namespace equiaffine::python {
 
 namespace {
 
-using Words = std::vector<std::string>;
 using Mesh = Annotated_mesh_3<Kernel>;
 
 /// A fit that is used again and again, with the data it was made of.
@@ -40,29 +40,26 @@ struct Fit {
   Indexed_triangle_mesh_3<Kernel> data;
 };
 
-/// A formula and the numbers of its names.
-using Formula = std::pair<std::string, std::map<std::string, double>>;
+/// A source is made of one of these: a formula, samples, or a fit.
+using Given = std::variant<std::string, Volume_array, std::shared_ptr<const Fit>>;
 
-/// A source is made of one of these.
-using Given = std::variant<Formula, Volume_array, std::shared_ptr<const Fit>>;
-
-/// Parses a command, and calls `compute(request, progress)` as observed() does.
+/// Reads the options of a command, and calls `compute(request, progress)` as observed() does.
 template <class Compute>
-auto run(const Words& words, const py::object& progress_function, const Compute& compute) {
-  Request request = parse_options(words);
+auto run(Command command, const py::dict& keywords, const py::object& progress_function, const Compute& compute) {
+  Request request = read_options(command_line_of(command, keywords));
   return observed(progress_function, request.threads, [&](Progress& progress) { return compute(request, progress); });
 }
 
 Source make_given_source(Source_options& options, const Given& given, Progress& progress, double radius) {
   if (const auto* fit = std::get_if<std::shared_ptr<const Fit>>(&given))
     return source_of_fit((*fit)->traits, (*fit)->data, options, radius);
-  if (const auto* formula = std::get_if<Formula>(&given)) std::tie(options.text, options.constants) = *formula;
+  if (const auto* formula = std::get_if<std::string>(&given)) options.text = *formula;
   if (const auto* volume = std::get_if<Volume_array>(&given)) options.volume = [volume] { return volume->view(); };
   return make_source(options, progress, radius);
 }
 
-py::object mesh(const Words& words, const Given& given, const py::object& progress_function) {
-  return run(words, progress_function, [&](Request& options, Progress& progress) {
+py::object mesh(const py::dict& keywords, const Given& given, const py::object& progress_function) {
+  return run(MESH, keywords, progress_function, [&](Request& options, Progress& progress) {
     check_memory(options);
     if (std::holds_alternative<Volume_array>(given))
       options.source.estimates_errors = has_affine_curvatures(options.attributes, options.estimates);
@@ -85,8 +82,8 @@ py::object mesh(const Words& words, const Given& given, const py::object& progre
   });
 }
 
-py::object annotate(const Words& words, Mesh data, const py::object& progress_function) {
-  return run(words, progress_function, [&](Request& options, Progress& progress) {
+py::object annotate(const py::dict& keywords, Mesh data, const py::object& progress_function) {
+  return run(ANNOTATE, keywords, progress_function, [&](Request& options, Progress& progress) {
     check_vertices(data.mesh.points, options.input);
     const auto areas = selected_vertex_areas(options.attributes, data.mesh.points, data.mesh.triangles);
     const auto structures = fit_vertices(data, options.source.fit, options.orientation);
@@ -104,8 +101,9 @@ py::object annotate(const Words& words, Mesh data, const py::object& progress_fu
   });
 }
 
-py::object evaluate(const Words& words, const Given& given, const Mesh& at, const py::object& progress_function) {
-  return run(words, progress_function, [&](Request& options, Progress& progress) {
+py::object evaluate(const py::dict& keywords, const Given& given, const Mesh& at, const py::object& progress_function) {
+  return run(EVALUATE, keywords, progress_function, [&](Request& options, Progress& progress) {
+    if (at.mesh.triangles.empty()) refuse_attributes_of_mesh(options.attributes);
     const Source source = make_given_source(options.source, given, progress, 0);
     const auto& points = at.mesh.points;
     std::vector<double> values(points.size());
@@ -121,12 +119,12 @@ py::object evaluate(const Words& words, const Given& given, const Mesh& at, cons
   });
 }
 
-std::shared_ptr<Fit> fit(const Words& words, Mesh data, const py::object& progress_function) {
-  return run(words, progress_function, [&](Request& options, Progress& progress) {
+std::shared_ptr<Fit> fit(const py::dict& keywords, Mesh data, const py::object& progress_function) {
+  return run(ANNOTATE, keywords, progress_function, [&](Request& options, Progress& progress) {
     check_vertices(data.mesh.points, options.input);
     const auto traits = blend_vertices(data, options.source.fit);
     if (traits.bbox() == CGAL::Bbox_3())
-      throw Input_error("no point has enough others around it for a polynomial; give more points or a larger --scale");
+      throw Input_error("no point has enough others around it for a polynomial; give more points or a larger scale");
     warn_of_opposed_normals(data, progress);
     return [fit = std::make_shared<Fit>(Fit{traits, std::move(data.mesh)})] { return fit; };
   });
@@ -137,19 +135,21 @@ void give(Source_options& source, const std::optional<Mesh>& data) {
   if (data) source.data = [&data] { return *data; };
 }
 
-py::tuple register_(const Words& words, const std::optional<Mesh>& source, const std::optional<Mesh>& target,
-                    const py::object& progress_function) {
-  return run(words, progress_function, [&](Request& options, Progress& progress) {
-    give(options.source, source);
-    give(options.target, target);
-    return [report = report_of(options, find_map(options, progress))] {
+py::tuple register_(const py::dict& keywords, const std::optional<Mesh>& source, const py::dict& keywords_of_target,
+                    const std::optional<Mesh>& target, const py::object& progress_function) {
+  Request request = read_options(command_line_of(REGISTER, keywords), command_line_of(REGISTER, keywords_of_target));
+  give(request.source, source);
+  give(request.target, target);
+  return observed(progress_function, request.threads, [&](Progress& progress) {
+    return [report = report_of(request, find_map(request, progress))] {
       return py::make_tuple(to_JSON(report), summary(report));
     };
   });
 }
 
-py::tuple symmetries(const Words& words, const std::optional<Mesh>& surface, const py::object& progress_function) {
-  return run(words, progress_function, [&](Request& options, Progress& progress) {
+py::tuple symmetries(const py::dict& keywords, const std::optional<Mesh>& surface,
+                     const py::object& progress_function) {
+  return run(SYMMETRIES, keywords, progress_function, [&](Request& options, Progress& progress) {
     give(options.source, surface);
     return [report = report_of(options, find_symmetries(options, progress))] {
       return py::make_tuple(to_JSON(report), summary(report));
@@ -190,8 +190,8 @@ void write_samples(const std::string& path, const Volume_array& samples) {
   });
 }
 
-void show_surface(const Words& words, const Mesh& surface) {
-  run(words, py::none(), [&](Request& options, Progress&) {
+void show_surface(const py::dict& keywords, const Mesh& surface) {
+  run(VIEW, keywords, py::none(), [&](Request& options, Progress&) {
     show(surface, "the surface", options);
     return [] { return py::none(); };
   });
@@ -202,14 +202,13 @@ void show_surface(const Words& words, const Mesh& surface) {
 PYBIND11_MODULE(_core, module) {
   using namespace py::literals;
   module.attr("version") = EQUIAFFINE_VERSION;
-  static PyObject* const sentence = PyErr_NewException("equiaffine._core.Sentence", PyExc_ValueError, nullptr);
-  module.attr("Sentence") = py::reinterpret_borrow<py::object>(sentence);
+  front_end = Front_end::PYTHON;
   py::register_exception_translator([](std::exception_ptr error) {
     try {
       if (error) std::rethrow_exception(error);
     } catch (const Input_error& input_error) {
       const std::string& excerpt = input_error.excerpt();
-      PyErr_SetString(sentence, (input_error.what() + (excerpt.empty() ? "" : "\n" + excerpt)).c_str());
+      PyErr_SetString(PyExc_ValueError, (input_error.what() + (excerpt.empty() ? "" : "\n" + excerpt)).c_str());
     }
   });
   module.def("interpreter_ends", [] { is_interpreter_ending = true; });
@@ -221,17 +220,17 @@ PYBIND11_MODULE(_core, module) {
   py::class_<Fit, std::shared_ptr<Fit>>(module, "Fit").def_property_readonly("scale", [](const Fit& self) {
     return self.traits.scale();
   });
-  module.def("mesh", &mesh, "words"_a, "given"_a, "progress"_a);
-  module.def("annotate", &annotate, "words"_a, "data"_a, "progress"_a);
-  module.def("evaluate", &evaluate, "words"_a, "given"_a, "points"_a, "progress"_a);
-  module.def("fit", &fit, "words"_a, "data"_a, "progress"_a);
-  module.def("register", &register_, "words"_a, "source"_a, "target"_a, "progress"_a);
-  module.def("symmetries", &symmetries, "words"_a, "surface"_a, "progress"_a);
+  module.def("mesh", &mesh, "options"_a, "given"_a, "progress"_a);
+  module.def("annotate", &annotate, "options"_a, "data"_a, "progress"_a);
+  module.def("evaluate", &evaluate, "options"_a, "given"_a, "points"_a, "progress"_a);
+  module.def("fit", &fit, "options"_a, "data"_a, "progress"_a);
+  module.def("register", &register_, "options"_a, "source"_a, "options_of_target"_a, "target"_a, "progress"_a);
+  module.def("symmetries", &symmetries, "options"_a, "surface"_a, "progress"_a);
   module.def("read_surface", &read_surface, "path"_a);
   module.def("read_volume", &read_samples, "path"_a);
   module.def("write_surface", &write, "path"_a, "surface"_a);
   module.def("write_volume", &write_samples, "path"_a, "volume"_a);
-  module.def("show", &show_surface, "words"_a, "surface"_a);
+  module.def("show", &show_surface, "options"_a, "surface"_a);
 }
 
 } // namespace equiaffine::python

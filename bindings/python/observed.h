@@ -4,6 +4,7 @@
 #define EQUIAFFINE_BINDINGS_PYTHON_OBSERVED_H
 
 #include "system/progress.h"
+#include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/Progress_observer.h>
 
 #include <atomic>
@@ -59,9 +60,12 @@ auto with_threads([[maybe_unused]] std::optional<std::size_t> threads, const Com
 
 /// Calls `compute(progress)` without the lock, and what it returns with it. A signal, as of Ctrl-C, ends the computation,
 /// as does an exception of the `progress` function, which is called with the number of a stage, the steps that are done,
-/// and all of them. Warnings of the program become those of Python.
+/// and all of them. Warnings of the program become those of Python, where the function of the module was called.
 template <class Compute>
 auto observed(const py::object& progress_function, std::optional<std::size_t> threads, const Compute& compute) {
+  if (!progress_function.is_none() && !PyCallable_Check(progress_function.ptr()))
+    throw Input_error("progress: give a function of three numbers, and not " +
+                      std::string(py::repr(progress_function)));
   std::ostringstream lines;
   const auto finish = [&] {
     const Without_lock without_lock;
@@ -79,7 +83,7 @@ auto observed(const py::object& progress_function, std::optional<std::size_t> th
   std::istringstream stream(lines.str());
   for (std::string line; std::getline(stream, line);)
     if (const std::size_t place = line.find(mark); place != std::string::npos)
-      py::module_::import("equiaffine._sentences").attr("warn")(line.substr(place + mark.size()));
+      if (PyErr_WarnEx(PyExc_UserWarning, line.c_str() + place + mark.size(), 2) != 0) throw py::error_already_set();
   return finish();
 }
 

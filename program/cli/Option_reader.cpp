@@ -3,6 +3,7 @@
 
 #include "cli/option_values.h"
 #include "cli/suggestions.h"
+#include "system/front_end.h"
 #include "volume/volume_io.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/io/internal/input_file.h>
@@ -16,7 +17,7 @@ namespace equiaffine {
 
 void Option_reader::read(const Option_row& row) {
   const std::string name = row.name();
-  if (has(name) && names_read_.insert(name).second) row.read({name, line_.options.at(name)}, request_);
+  if (has(name) && names_read_.insert(name).second) row.read({name, line_.options.at(name), row.type}, request_);
 }
 
 void Option_reader::read(std::initializer_list<const char*> options) {
@@ -36,7 +37,7 @@ void Option_reader::refuse(std::initializer_list<const char*> options, const std
 }
 
 void Option_reader::need(const std::string& option, const std::string& advice) const {
-  if (!has(option)) throw Input_error("the option " + option + " is missing; " + advice);
+  if (!has(option)) throw Input_error(by_front_end("the option ", "") + option_text(option) + " is missing; " + advice);
 }
 
 namespace {
@@ -60,13 +61,12 @@ bool are_same_file(const std::string& path, const std::string& other) {
 
 std::vector<std::string> input_files(const Option_reader& reader) {
   std::vector<std::string> files;
-  for (const char* option :
-       {"FILE", "--volume", "--distance-to", "--fit", "--points", "--range-of", "MESH.ply", "MESH"})
+  for (const char* option : {"FILE", "volume", "distance_to", "fit", "points", "range_of", "MESH.ply", "MESH"})
     if (reader.has(option)) files.push_back(reader.word(option));
   if (const Source_options& source = reader.request().source; source.kind == Source_kind::VOLUME && !source.raw)
     for (std::string& file : files_read_with(source.text)) files.push_back(std::move(file));
-  if (reader.has("--function"))
-    if (const auto file = formula_file(reader.word("--function"))) files.push_back(*file);
+  if (reader.has("function"))
+    if (const auto file = formula_file(reader.word("function"))) files.push_back(*file);
   return files;
 }
 
@@ -83,16 +83,17 @@ void check_outputs(const std::vector<std::string>& inputs, const std::vector<std
   }
 }
 
-void need_output(const Option_reader& reader) { reader.need("--output", "name the file to write, -o FILE"); }
+void need_output(const Option_reader& reader) { reader.need("output", "name the file to write, -o FILE"); }
 
 void refuse_picture_options(const Option_reader& reader) {
-  if (!reader.has("--png"))
-    reader.refuse({"--size", "--arrows"}, "it is for the picture of --png", "add --png or leave it out");
+  if (!reader.has("png"))
+    reader.refuse({"size", "arrows"}, "it is for a picture",
+                  by_front_end("add --png", "give the path of one, .png,") + " or leave it out");
 }
 
 void refuse_page_options(const Option_reader& reader) {
-  if (!reader.has("--html") && !reader.has("--png"))
-    reader.refuse({"--color", "--up", "--colors", "--range", "--range-of"},
+  if (!reader.has("html") && !reader.has("png"))
+    reader.refuse({"color", "up", "colors", "range", "range_of"},
                   "it is for the page of --html and the picture of --png", "add one of them or leave it out");
 }
 
@@ -110,14 +111,15 @@ namespace {
 /// Throws for an option of fits with a source that is none.
 void refuse_fit_options(const Option_reader& reader) {
   const auto refuse = [&](const std::string& reason, const std::string& advice) {
-    reader.refuse({"--scale", "--noise", "--degree", "--feature-angle"},
-                  "it is for the polynomials of --fit, and " + reason, advice);
+    reader.refuse({"scale", "noise", "degree", "feature_angle"}, "it is for the polynomials of a fit, and " + reason,
+                  advice);
   };
   const Source_options& source = reader.request().source;
   switch (source.kind) {
   case Source_kind::FUNCTION: return refuse("a formula has no points to fit", "leave it out");
   case Source_kind::VOLUME:
-    return refuse("a volume gets a spline", "leave it out, and smooth the samples with --smoothing auto");
+    return refuse("a volume gets a spline",
+                  "leave it out, and smooth the samples with " + option_text("smoothing", "auto"));
   case Source_kind::DISTANCE:
     return refuse("a distance gets a spline", "use --fit " + source.text + " in place of --distance-to");
   case Source_kind::FIT: return;
@@ -126,10 +128,11 @@ void refuse_fit_options(const Option_reader& reader) {
 
 void read_kind(Option_reader& reader) {
   std::string given;
-  for (const char* option : {"FILE", "--function", "--volume", "--distance-to", "--fit"}) {
+  for (const char* option : {"FILE", "function", "volume", "distance_to", "fit"}) {
     if (!reader.has(option)) continue;
-    if (!given.empty()) throw Input_error(given + " and " + option + " are both given; give one source");
-    given = option == std::string("FILE") ? "'" + reader.word(option) + "'" : option;
+    const std::string text = option == std::string("FILE") ? "'" + reader.word(option) + "'" : option_text(option);
+    if (!given.empty()) throw Input_error(given + " and " + text + " are both given; give one source");
+    given = text;
     reader.read({option});
   }
   if (given.empty()) fail_without_source(reader.command());
@@ -142,32 +145,35 @@ void read_kind(Option_reader& reader) {
 /// Checks that the source has what was read of it, and that a formula has a box where it is sampled.
 void check_kind(const Option_reader& reader) {
   const Source_options& source = reader.request().source;
-  if (source.kind != Source_kind::FUNCTION) reader.refuse({"--set"}, "only a --function has constants", "leave it out");
-  if (source.kind == Source_kind::VOLUME)
-    reader.refuse({"--box", "--resolution"}, "a --volume has its own", "leave it out");
+  if (source.kind != Source_kind::FUNCTION)
+    reader.refuse({"constants"}, "only a formula has constants", "leave it out");
+  if (source.kind == Source_kind::VOLUME) reader.refuse({"box", "resolution"}, "a volume has its own", "leave it out");
   const bool is_sampled_only = source.kind == Source_kind::VOLUME || source.kind == Source_kind::DISTANCE;
   if (source.kind == Source_kind::FIT && source.derivatives == Derivatives::SPLINE)
-    fail_option("--derivatives", "a fit is known near its points only, which is too little for a spline",
+    fail_option("derivatives", "a fit is known near its points only, which is too little for a spline",
                 "leave it out: a fit has derivatives of its own");
   if (is_sampled_only && source.derivatives == Derivatives::JETS)
-    fail_option("--derivatives", "jets need a formula, and this source is known by samples only",
+    fail_option("derivatives", "jets need a formula, and this source is known by samples only",
                 "leave it out or use spline");
   const bool is_sampled = reader.command() != EVALUATE || source.derivatives == Derivatives::SPLINE;
   if (source.kind == Source_kind::FUNCTION && is_sampled)
-    reader.need("--box", "say where the --function is to be sampled, such as --box -2 2 -2 2 -2 2");
+    reader.need("box",
+                "say where the formula is to be sampled, such as " + by_front_end("--box -2 2 -2 2 -2 2", "box=2"));
 }
 
 void read_spline(Option_reader& reader) {
   if (reader.request().source.derivatives == Derivatives::JETS)
-    reader.refuse({"--spline-degree", "--spline-scheme", "--smoothing"},
+    reader.refuse({"spline_degree", "spline_scheme", "smoothing"},
                   "it is for splines, and the derivatives are those of the formula or the fit",
-                  reader.request().source.kind == Source_kind::FIT ? "leave it out"
-                                                                 : "add --derivatives spline or leave it out");
-  reader.read({"--spline-scheme", "--spline-degree"});
+                  reader.request().source.kind == Source_kind::FIT
+                      ? "leave it out"
+                      : "add " + option_text("derivatives", "spline") + " or leave it out");
+  reader.read({"spline_scheme", "spline_degree"});
   const Volume_options& spline = reader.request().source.spline;
   if (spline.spline_scheme == Spline_scheme::PAPER && spline.spline_degree != 5)
-    fail_option("--spline-degree", "the paper's spline has degree 5", "leave it out or use another --spline-scheme");
-  reader.read({"--smoothing"});
+    fail_option("spline_degree", "the paper's spline has degree 5",
+                "leave it out or use another " + option_text("spline_scheme"));
+  reader.read({"smoothing"});
 }
 
 /// Reads what a file `.raw` does not say itself; the options are refused for others.
@@ -176,37 +182,38 @@ void read_raw_layout(Option_reader& reader) {
   const Source_options& source = reader.request().source;
   const bool is_raw = source.kind == Source_kind::VOLUME && has_extension(source.text, ".raw");
   if (!is_raw)
-    return reader.refuse({"--dims", "--spacing", "--origin", "--type"},
-                         "it is for a --volume FILE.raw, which has no header", "leave it out");
-  for (const char* option : {"--dims", "--type"})
-    reader.need(option, "a .raw has no header, say for instance --dims 256 256 128 --type int16");
-  reader.read({"--dims", "--spacing", "--origin", "--type"});
+    return reader.refuse({"dims", "spacing", "origin", "type"}, "it is for a --volume FILE.raw, which has no header",
+                         "leave it out");
+  for (const char* option : {"dims", "type"})
+    reader.need(option,
+                "a .raw has no header" + by_front_end(", say for instance --dims 256 256 128 --type int16", ""));
+  reader.read({"dims", "spacing", "origin", "type"});
 }
 
 /// Reads what is to be read of a volume; the options are refused for other sources.
 void read_selection(Option_reader& reader) {
   const Source_options& source = reader.request().source;
   if (source.kind != Source_kind::VOLUME)
-    reader.refuse({"--component", "--time", "--allow-outside"}, "it is for a --volume", "leave it out");
+    reader.refuse({"component", "time", "allow_outside"}, "it is for a --volume", "leave it out");
   if (source.raw)
-    reader.refuse({"--component", "--time", "--allow-outside"},
-                  "it is for a --volume with a header, and a .raw has none", "leave it out");
-  reader.read({"--component", "--time", "--allow-outside"});
+    reader.refuse({"component", "time", "allow_outside"}, "it is for a --volume with a header, and a .raw has none",
+                  "leave it out");
+  reader.read({"component", "time", "allow_outside"});
 }
 
 } // namespace
 
 void read_source(Option_reader& reader) {
   read_kind(reader);
-  reader.read({"--set", "--box", "--resolution", "--transform", "--derivatives"});
+  reader.read({"constants", "box", "resolution", "transform", "derivatives"});
   check_kind(reader);
   read_spline(reader);
   read_raw_layout(reader);
   read_selection(reader);
   if (reader.request().source.kind != Source_kind::DISTANCE)
-    reader.refuse({"--narrow-band"}, "it is for --distance-to", "leave it out");
+    reader.refuse({"narrow_band"}, "it is for --distance-to", "leave it out");
   refuse_fit_options(reader);
-  reader.read({"--narrow-band", "--scale", "--noise", "--degree", "--feature-angle"});
+  reader.read({"narrow_band", "scale", "noise", "degree", "feature_angle"});
 }
 
 } // namespace equiaffine

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the words of a command line become a request, by way of a request.
+// How options become a request, by their rows in the table.
 #ifndef EQUIAFFINE_PROGRAM_CLI_OPTION_READER_H
 #define EQUIAFFINE_PROGRAM_CLI_OPTION_READER_H
 
@@ -13,8 +13,8 @@
 
 namespace equiaffine {
 
-/// Reads the options of a command line into a request, by their rows in the table. Only the first error is reported, so
-/// the order of the calls matters to users.
+/// Reads options into a request, by their rows in the table. Only the first error is reported, so the order of the calls
+/// matters to users.
 class Option_reader {
 public:
   explicit Option_reader(const Command_line& line) : line_(line) {
@@ -26,6 +26,7 @@ public:
   const Request& request() const { return request_; }
 
   Command command() const { return line_.command; }
+  bool writes_files() const { return line_.writes_files; }
   bool has(const std::string& option) const { return line_.has(option); }
   const std::string& word(const std::string& option) const { return line_.word(option); }
 

@@ -3,6 +3,7 @@
 
 #include "cli/help_texts.h"
 #include "cli/suggestions.h"
+#include "system/front_end.h"
 #include <equiaffine/base/Input_error.h>
 
 #include <CLI/App.hpp>
@@ -16,6 +17,14 @@
 #include <vector>
 
 namespace equiaffine {
+
+std::string Option_row::name() const {
+  const std::size_t dashes = names.find("--");
+  if (dashes == std::string::npos) return names;
+  std::string name = names.substr(dashes + 2, names.find(',', dashes) - dashes - 2);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
 
 std::vector<const Option_row*> options_of(Command command) {
   std::vector<const Option_row*> rows;
@@ -53,7 +62,10 @@ private:
     if (!options.empty()) help += '\n' + title + ":\n";
     for (const CLI::Option* option : options) {
       const std::string type = option->get_type_name();
-      std::string line = "  " + option->get_name(option->get_positional(), true) + (type.empty() ? "" : ' ' + type);
+      std::string line = "  ";
+      for (const std::string& name : option->get_snames()) line += '-' + name + ',';
+      line += option->get_positional() ? option->get_name(true) : "--" + option->get_lnames().front();
+      line += type.empty() ? "" : ' ' + type;
       if (line.size() >= text_column) line += '\n' + std::string(text_column, ' ');
       help += padded(line, text_column);
       for (const char c : option->get_description())
@@ -136,8 +148,8 @@ public:
     } catch (const CLI::ArgumentMismatch& error) { // "--box: 6 required .. missing"
       const std::string text = error.what(), option = text.substr(0, text.find(':'));
       if (app_.get_subcommands().empty()) fail_before_command("--"); // after it CLI11 parses a command and forgets it
-      fail_option(option, "it needs " + app_.get_subcommands().front()->get_option(option)->get_type_name(),
-                  see_help());
+      throw Input_error(option + ": it needs " + app_.get_subcommands().front()->get_option(option)->get_type_name() +
+                        "; " + see_help());
     } catch (const CLI::ParseError& error) {
       throw Input_error(std::string(error.what()) + "; " + see_help());
     }
@@ -167,18 +179,18 @@ private:
     if (least == 0) option.expected(0);
     else if (most == unlimited) option.expected(least, CLI::detail::expected_max_vector_size)->allow_extra_args();
     else if (least == 1 && most > 1) option.expected(1, most);
-    else if (most > least) number_lists_.push_back({&command, &option, row.name(), least});
+    else if (most > least) number_lists_.push_back({&command, &option, &row});
     option.group(title);
   }
 
   /// Lets options take all numbers that follow them: CLI11 itself would take a number such as -.5 beyond the least ones
   /// for an option. How many are too many the option says itself.
   void admit_longer_lists(const Words& arguments) {
-    for (const auto& [command, option, name, least] : number_lists_)
+    for (const auto& [command, option, row] : number_lists_)
       for (auto word = arguments.begin(); word != arguments.end(); ++word) {
-        if (*word != name || command->get_name() != arguments.front()) continue;
+        if (!row->has_name(*word) || command->get_name() != arguments.front()) continue;
         const auto count = std::find_if_not(word + 1, arguments.end(), is_number) - (word + 1);
-        if (count > least) option->type_size(int(count));
+        if (count > row->words.least) option->type_size(int(count));
       }
   }
 
@@ -203,7 +215,8 @@ private:
     result_.command = std::find_if(command_texts.begin(), command_texts.end(), [&](const Command_text& text) {
                         return text.name == command.get_name();
                       })->command;
-    for (const auto& [name, words] : result_.options) check_words_of(command, name, words);
+    for (const Option_row* row : options_of(result_.command))
+      if (result_.has(row->name())) check_words_of(command, *row);
     if (const Words rest = command.remaining(); !rest.empty()) fail_after_command(command, rest.front());
   }
 
@@ -228,22 +241,23 @@ private:
 
   std::string advice_or_help(const std::string& advice) const { return advice.empty() ? see_help() : advice; }
 
-  void check_words_of(const CLI::App& command, const std::string& name, const Words& words) const {
-    if (words.size() > std::max<std::size_t>(1, std::size_t(command.get_option(name)->get_items_expected_max())))
-      fail_option(name, "it is given more than once", "give it once");
+  void check_words_of(const CLI::App& command, const Option_row& row) const {
+    const std::string text = row.names.starts_with('-') ? option_text(row.name()) : row.names;
+    const Words& words = result_.options.at(row.name());
+    if (words.size() > std::max<std::size_t>(1, std::size_t(command.get_option(text)->get_items_expected_max())))
+      throw Input_error(text + ": it is given more than once; give it once");
     for (const std::string& word : words) {
       if (word.starts_with('-') && command.get_option_no_throw(word))
-        fail_option(name, "a value is missing before " + word, see_help());
-      if (word.empty()) fail_option(name, "a value is empty", see_help());
+        throw Input_error(text + ": a value is missing before " + word + "; " + see_help());
+      if (word.empty()) throw Input_error(text + ": a value is empty; " + see_help());
     }
   }
 
-  /// An option that takes `least` numbers or more.
+  /// An option that takes several numbers or more.
   struct Number_list {
     const CLI::App* command;
     CLI::Option* option;
-    std::string name;
-    int least;
+    const Option_row* row;
   };
 
   static constexpr const char* title_of_flags = "Options"; // CLI11's own name for it differs from version to version

@@ -16,9 +16,8 @@
 namespace equiaffine {
 
 /// Formulas and volumes have z up unless something else is asked for; the shapes of data tell what is up.
-inline void choose_up(Source_kind kind, Display_options& display) {
-  const bool is_data = kind == Source_kind::FIT || kind == Source_kind::DISTANCE;
-  if (!is_data && !display.up) display.up = {0, 0, 1};
+inline void choose_up(Source_kind kind, Display_request& display) {
+  if (kind != Source_kind::FIT && kind != Source_kind::DISTANCE) display.guesses_up = false;
 }
 
 /// Commands of an option, as bits.
@@ -50,7 +49,9 @@ constexpr int unlimited = 0;
 /// A row of the table says everything about one option, from its help to where its value goes. For a new option add a
 /// row to source_options.cpp, surface_options.cpp or output_options.cpp.
 struct Option_row {
-  std::string names; ///< such as "-o,--output"; a positional argument has a name without dashes
+  /// Such as "-o,--output"; a positional argument has a name without dashes. Long names after the first one are
+  /// accepted, and not shown.
+  std::string names;
   Commands commands;
   Option_group group;
   Number_of_words words;
@@ -59,8 +60,13 @@ struct Option_row {
   /// Reads the words and puts their value into the request. Throws `Input_error` if it cannot read them.
   void (*read)(const Option_words& option, Request& request);
 
-  /// The last of the names, by which messages call the option.
-  std::string name() const { return names.substr(names.find(',') + 1); }
+  /// The name of the option in C++ and Python, min_overlap for --min-overlap, or that of a positional argument.
+  std::string name() const;
+
+  /// Whether the word is one of the names.
+  bool has_name(const std::string& word) const {
+    return (',' + names + ',').find(',' + word + ',') != std::string::npos;
+  }
 };
 
 /// The parts of the table, in the order of the help.
@@ -72,11 +78,12 @@ std::span<const Option_row> output_options();
 /// The rows of a command in the order of its help.
 std::vector<const Option_row*> options_of(Command command);
 
-/// The words on the command line: those of every option that is given, before their meaning is read.
+/// The options that are given, before the meaning of their words is read.
 struct Command_line {
   Command command = MESH;
   std::map<std::string, Words> options;   ///< by the name() of the option's row
   std::optional<std::string> information; ///< help or version, if it was asked for
+  bool writes_files = true; ///< or returns its results; then options of sources are names for data in memory
 
   bool has(const std::string& option) const { return options.count(option) > 0; }
 

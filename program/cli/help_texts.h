@@ -32,9 +32,9 @@ Usage: equiaffine mesh SOURCE [options] -o OUT [--html PAGE.html] [--stats FILE.
 
 inline constexpr const char* mesh_footer =
     R"help(Examples:
-  equiaffine mesh --function "(x^2+y^2+z^2+R^2-r^2)^2 = 4*R^2*(x^2+y^2)" --set R=2 r=.5 \
+  equiaffine mesh --function "(x^2+y^2+z^2+R^2-r^2)^2 = 4*R^2*(x^2+y^2)" --constants R=2 r=.5 \
       --box -3 3 -3 3 -1 1 --resolution 128 -o torus.ply --html torus.html
-  equiaffine mesh --volume skull.nrrd --isovalue 2.9 --orientation against -o skull.ply
+  equiaffine mesh --volume skull.nrrd --level 2.9 --orientation against -o skull.ply
   equiaffine mesh --fit bunny.off --scale 0.18 --attributes all -o bunny.ply \
       --html bunny.html --color mean_curvature --up y
 
@@ -106,7 +106,7 @@ stand.
 
 Examples:
   equiaffine register part.ply to whole.ply -o map.json --moved moved.ply --html map.html
-  equiaffine register --function "x^2+2*y^4+z^4+x*y*z=1" --box -2 2 -2 2 -2 2 to scan.nrrd --isovalue 7 -o map.json)";
+  equiaffine register --function "x^2+2*y^4+z^4+x*y*z=1" --box -2 2 -2 2 -2 2 to scan.nrrd --level 7 -o map.json)";
 
 inline constexpr const char* symmetries_description =
     R"(find all maps that move a surface onto itself

@@ -15,6 +15,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <system_error>
 
 namespace equiaffine {
@@ -36,13 +37,7 @@ std::optional<Number> parse_number(std::string_view word) {
 } // namespace
 
 void fail_option(const std::string& option, const std::string& reason, const std::string& advice) {
-  throw Input_error(option + ": " + reason + "; " + advice);
-}
-
-std::string option_of_field(const std::string& field) {
-  std::string option = field.substr(field.rfind('.') + 1);
-  std::replace(option.begin(), option.end(), '_', '-');
-  return "--" + option;
+  throw Input_error(option_text(option) + ": " + reason + "; " + advice);
 }
 
 bool is_number(const std::string& word) { return parse_number<double>(word).has_value(); }
@@ -52,6 +47,7 @@ double parse_finite_number(const std::string& option, const std::string& word) {
     if (!std::isfinite(*number)) fail_option(option, "'" + word + "' is not a finite number", "give a finite one");
     return *number;
   }
+  if (front_end == Front_end::PYTHON) fail_option(option, "'" + word + "' is not a number", "give one");
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   try {
     // The value is NaN if it depends on x, y or z.
@@ -87,15 +83,8 @@ std::array<double, 3> parse_triple(const Option_words& option) {
   return result;
 }
 
-double parse_length(const Option_words& option) {
-  const double length = parse_number(option);
-  if (!(length > 0))
-    fail_option(option.name, "'" + option.word() + "' is not a length", "give a number above 0, or leave it out");
-  return length;
-}
-
 std::array<std::size_t, 3> parse_resolution(const Option_words& option) {
-  const auto& [name, words] = option;
+  const auto& [name, words, type] = option;
   if (words.size() != 1 && words.size() != 3)
     fail_option(name, std::to_string(words.size()) + " numbers are given", "give one, N, or three, NX NY NZ");
   std::array<std::size_t, 3> resolution{};
@@ -104,7 +93,7 @@ std::array<std::size_t, 3> parse_resolution(const Option_words& option) {
 }
 
 CGAL::Bbox_3 parse_box(const Option_words& option) {
-  const auto& [name, words] = option;
+  const auto& [name, words, type] = option;
   std::array<double, 6> bounds{};
   for (std::size_t i = 0; i < 6; ++i) bounds[i] = parse_finite_number(name, words[i]);
   for (std::size_t a = 0; a < 3; ++a) {
@@ -121,7 +110,7 @@ CGAL::Bbox_3 parse_box(const Option_words& option) {
 }
 
 CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& option) {
-  const auto& [name, words] = option;
+  const auto& [name, words, type] = option;
   if (words.size() != 9 && words.size() != 12)
     fail_option(name, std::to_string(words.size()) + " numbers are given",
                 "give 9, a matrix row by row, or 12, a matrix and a translation");
@@ -149,15 +138,25 @@ std::pair<std::string, double> parse_constant(const std::string& option, const s
   return {word.substr(0, equals), parse_finite_number(option + " " + word, word.substr(equals + 1))};
 }
 
-std::size_t parse_choice(const Option_words& option, std::span<const std::string_view> choices) {
+Words split(const std::string& text, char separator) {
+  Words parts(1);
+  for (const char c : text)
+    if (c == separator) parts.emplace_back();
+    else parts.back() += c;
+  return parts;
+}
+
+std::size_t parse_choice(const Option_words& option, const Words& choices) {
   const auto choice = std::find(choices.begin(), choices.end(), option.word());
   if (choice == choices.end()) {
     std::string list;
-    for (const std::string_view c : choices) list.append(list.empty() ? "" : " or ").append(c);
+    for (const std::string& c : choices) list.append(list.empty() ? "" : " or ").append(c);
     fail_option(option.name, "'" + option.word() + "' is not known", "use " + list);
   }
   return std::size_t(choice - choices.begin());
 }
+
+bool parse_flag(const Option_words& option) { return parse_choice(option, Words{"true", "false"}) == 0; }
 
 std::optional<std::string> formula_file(const std::string& word) {
   if (!word.starts_with('@')) return std::nullopt;

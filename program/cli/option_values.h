@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Turns words of the command line into values. Every function throws `Input_error`, with the name of the option.
+// Turns words of options into values. Every function throws `Input_error`, with the name of the option.
 #ifndef EQUIAFFINE_PROGRAM_CLI_OPTION_VALUES_H
 #define EQUIAFFINE_PROGRAM_CLI_OPTION_VALUES_H
 
+#include "system/front_end.h"
 #include "system/kernel.h"
 #include <equiaffine/base/Input_error.h>
 
@@ -13,9 +14,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,19 +22,17 @@ namespace equiaffine {
 
 using Words = std::vector<std::string>;
 
-/// An option that is given: its name and the words after it.
+/// An option that is given: its name in C++, the words after it, and their type in the help.
 struct Option_words {
   std::string name;
   Words words;
+  std::string type;
 
   const std::string& word() const { return words.front(); }
 };
 
-/// "option: reason; advice"
+/// "option: reason; advice", where `option` is the name in C++.
 [[noreturn]] void fail_option(const std::string& option, const std::string& reason, const std::string& advice);
-
-/// The option that a field of an options struct is on the command line: "--min-overlap" for "min_overlap".
-std::string option_of_field(const std::string& field);
 
 /// Checks an options struct. Throws its error with the name of the option in the place of that of the field.
 template <class Options>
@@ -43,13 +40,13 @@ void check_options(const Options& options) {
   try {
     options.check();
   } catch (const Input_error& error) {
-    throw Input_error(option_of_field(error.field()) + ": " + error.sentence());
+    throw Input_error(option_text(error.field().substr(error.field().rfind('.') + 1)) + ": " + error.sentence());
   }
 }
 
 bool is_number(const std::string& word);
 
-/// A finite number, written as such or as arithmetic with numbers, such as 2*pi/3.
+/// A finite number, written as such or, on the command line, as arithmetic with numbers, such as 2*pi/3.
 double parse_finite_number(const std::string& option, const std::string& word);
 
 /// The only word of the option as a number.
@@ -57,9 +54,6 @@ inline double parse_number(const Option_words& option) { return parse_finite_num
 
 /// The words of the option as numbers.
 std::array<double, 3> parse_triple(const Option_words& option);
-
-/// A length above 0.
-double parse_length(const Option_words& option);
 
 /// A whole number, at least `minimum`.
 std::size_t parse_count(const std::string& option, const std::string& word, std::size_t minimum);
@@ -80,16 +74,20 @@ CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& opti
 /// name=value, where the value is a number or arithmetic.
 std::pair<std::string, double> parse_constant(const std::string& option, const std::string& word);
 
-/// The position of the only word of the option in `choices`.
-std::size_t parse_choice(const Option_words& option, std::span<const std::string_view> choices);
+/// The parts of a text between separators.
+Words split(const std::string& text, char separator);
 
-/// The value that stands beside the only word of the option.
+/// The position of the only word of the option in `choices`.
+std::size_t parse_choice(const Option_words& option, const Words& choices);
+
+/// The value at the position of the word in the type of the option, such as "box|ball".
 template <class Value>
-Value parse_choice(const Option_words& option, std::initializer_list<std::pair<std::string_view, Value>> choices) {
-  std::vector<std::string_view> names;
-  for (const auto& choice : choices) names.push_back(choice.first);
-  return (choices.begin() + parse_choice(option, names))->second;
+Value parse_choice(const Option_words& option, std::initializer_list<Value> values) {
+  return values.begin()[parse_choice(option, split(option.type, '|'))];
 }
+
+/// Whether an option without words is given.
+bool parse_flag(const Option_words& option);
 
 /// The path after the @ if the word of --function is `@FILE`, or nothing if it is a formula.
 std::optional<std::string> formula_file(const std::string& word);

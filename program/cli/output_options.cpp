@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "attributes/estimates.h"
 #include "cli/command_line.h"
+#include "system/front_end.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/base/Input_error.h>
 
@@ -11,7 +12,6 @@
 #include <set>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace equiaffine {
@@ -76,20 +76,11 @@ const std::string vtp = " .vtp";
 const std::string vtp;
 #endif
 
-/// The parts of a text between separators.
-Words split(const std::string& text, char separator) {
-  Words parts(1);
-  for (const char c : text)
-    if (c == separator) parts.emplace_back();
-    else parts.back() += c;
-  return parts;
-}
-
 Attribute_selection select(const std::string& list, const std::string& option) {
   try {
     return select_attributes(list);
   } catch (const Input_error& error) {
-    throw Input_error(option + ": " + error.what());
+    throw Input_error(option_text(option) + ": " + error.what());
   }
 }
 
@@ -140,19 +131,12 @@ void complete_estimates(const Option_words& option, const Request& request, Attr
   if (words.estimates.empty()) return;
   for (const auto& attribute : estimate_attributes())
     if (!attribute.is_of_splines && words.estimates.contains(attribute.name))
-      fail_option(option.name, "'" + attribute.name + "' is estimated for fits", "use --fit or leave it out");
+      fail_option(option.name, "'" + attribute.name + "' is estimated for fits", by_front_end("use --fit", "use a fit") + " or leave it out");
   if (request.source.derivatives == Derivatives::JETS)
     fail_option(option.name, "errors are estimated for splines and fits, and the derivatives of a formula have none",
-                "add --derivatives spline or leave them out");
+                by_front_end("add --derivatives spline or ", "") + "leave them out");
   for (const auto& attribute : estimate_attributes())
     if (attribute.is_of_splines) words.estimates.insert(attribute.name);
-}
-
-void read_attributes(const Option_words& option, Request& request) {
-  Attribute_words words = split_attributes(option);
-  if (request.source.kind == Source_kind::FIT) add_estimates_of_lists(words);
-  else complete_estimates(option, request, words);
-  select(words, option.name, request);
 }
 
 /// Reads the attributes of the command annotate.
@@ -161,48 +145,9 @@ void read_attributes_of_fit(const Option_words& option, Request& request) {
   for (const std::string& name : words.attributes)
     if (name == "signature" || name.ends_with("_gradient"))
       fail_option(option.name, "'" + name + "' needs a function, and a fit at points has no gradients of curvatures",
-                  "leave it out, or use mesh --fit");
+                  "leave it out, or use " + by_front_end("mesh --fit", "fit(V).mesh()"));
   add_estimates_of_lists(words);
   select(words, option.name, request);
-}
-
-void read_estimator(const Option_words& option, Request& request) {
-  request.estimator = parse_choice<Estimator>(option, {{"compact", Estimator::COMPACT},
-                                                     {"transformation", Estimator::TRANSFORMATION},
-                                                     {"direct", Estimator::DIRECT},
-                                                     {"direct-z", Estimator::DIRECT_Z}});
-}
-
-void read_up(const Option_words& option, Request& request) {
-  using Up = std::optional<std::array<double, 3>>;
-  request.display.up =
-      parse_choice<Up>(option, {{"x", {{1, 0, 0}}}, {"y", {{0, 1, 0}}}, {"z", {{0, 0, 1}}}, {"auto", std::nullopt}});
-}
-
-void read_colors(const Option_words& option, Request& request) {
-  using Scale = std::optional<Color_scale>;
-  request.display.scale = parse_choice<Scale>(option, {{"linear", Color_scale::LINEAR},
-                                                     {"logarithmic", Color_scale::ASINH},
-                                                     {"equalized", Color_scale::EQUALIZED},
-                                                     {"auto", std::nullopt}});
-}
-
-void read_size(const Option_words& option, Request& request) {
-  constexpr std::size_t least = 100, most = 10'000; // for a legend, and for memory
-  for (std::size_t n = 0; n < 2; ++n) {
-    const std::string& word = option.words[n];
-    request.display.size[n] = parse_count(option.name, word, least);
-    if (request.display.size[n] > most)
-      fail_option(option.name, "'" + word + "' is more than 10000", "give fewer pixels");
-  }
-}
-
-void read_range(const Option_words& option, Request& request) {
-  const auto& [name, words] = option;
-  const double low = parse_finite_number(name, words[0]), high = parse_finite_number(name, words[1]);
-  if (!(low < high))
-    fail_option(name, "'" + words[0] + "' is not less than '" + words[1] + "'", "give the smaller number first");
-  request.display.range = {low, high};
 }
 
 void read_output(const Option_words& option, Request& request) { request.output = option.word(); }
@@ -229,15 +174,24 @@ const std::vector<Option_row> rows_of_outputs = {
      [](const Option_words& option, Request& request) { request.moved = option.word(); }},
     {"--type", SAMPLE, OUTPUT, 1, "float|double", "the type of the samples, by default double",
      [](const Option_words& option, Request& request) {
-       request.samples_are_float = parse_choice<bool>(option, {{"float", true}, {"double", false}});
+       request.samples_are_float = parse_choice(option, {true, false});
      }},
-    {"--attributes", MESH | EVALUATE, OUTPUT, 1, "basic|all|none|LIST", attributes_help(), read_attributes},
+    {"--attributes", MESH | EVALUATE, OUTPUT, 1, "basic|all|none|LIST", attributes_help(),
+     [](const Option_words& option, Request& request) {
+       Attribute_words words = split_attributes(option);
+       if (request.source.kind == Source_kind::FIT) add_estimates_of_lists(words);
+       else complete_estimates(option, request, words);
+       select(words, option.name, request);
+     }},
     {"--attributes", ANNOTATE, OUTPUT, 1, "basic|all|none|LIST", attributes_of_fit_help(), read_attributes_of_fit},
     {"--estimator", MESH | EVALUATE, OUTPUT, 1, "compact|transformation|direct|direct-z",
      "how conormal, affine_normal, affine_gaussian_curvature and affine_mean_curvature are\n"
      "computed from the derivatives: our own formulas (compact, the default), or those of\n"
      "Andrade and Lewiner, to compare with",
-     read_estimator},
+     [](const Option_words& option, Request& request) {
+       request.estimator = parse_choice(
+           option, {Estimator::COMPACT, Estimator::TRANSFORMATION, Estimator::DIRECT, Estimator::DIRECT_Z});
+     }},
     {"--html", MESH | ANNOTATE | registering, OUTPUT, 1, "PAGE.html",
      "also a web page to look at the surface, without network",
      [](const Option_words& option, Request& request) { request.display.html = option.word(); }},
@@ -250,24 +204,49 @@ const std::vector<Option_row> rows_of_outputs = {
     {"--up", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "x|y|z|auto",
      "the axis that points up on them: by default z for formulas and volumes; auto, the default\n"
      "for all else, is y, as in most scans, or z if the shape stands on a wider foot along z",
-     read_up},
+     [](const Option_words& option, Request& request) {
+       using Up = std::optional<std::array<double, 3>>;
+       const auto up = parse_choice<Up>(option, {{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}, std::nullopt});
+       if (up) request.display.up = *up;
+       request.display.guesses_up = !up;
+     }},
     {"--colors", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "linear|logarithmic|equalized|auto",
      "how numbers become colors; equalized gives equal areas of the surface equal parts of the\n"
      "color bar, for each sign. By default, auto, the first of them by which the median is an\n"
      "eighth of the bar away from white",
-     read_colors},
+     [](const Option_words& option, Request& request) {
+       using Scale = std::optional<Color_scale>;
+       request.display.colors =
+           parse_choice<Scale>(option, {Color_scale::LINEAR, Color_scale::ASINH, Color_scale::EQUALIZED, std::nullopt});
+     }},
     {"--size", MESH | VIEW | ANNOTATE | registering, OUTPUT, 2, "WIDTH HEIGHT",
-     "of the picture in pixels, by default 1000 800", read_size},
+     "of the picture in pixels, by default 1000 800",
+     [](const Option_words& option, Request& request) {
+       constexpr std::size_t least = 100, most = 10'000; // for a legend, and for memory
+       for (std::size_t n = 0; n < 2; ++n) {
+         const std::string& word = option.words[n];
+         request.display.size[n] = parse_count(option.name, word, least);
+         if (request.display.size[n] > most)
+           fail_option(option.name, "'" + word + "' is more than 10000", "give fewer pixels");
+       }
+     }},
     {"--range", MESH | VIEW | ANNOTATE | registering, OUTPUT, 2, "LOW HIGH",
      "the numbers of the end colors of page and picture, by default quantiles;\n"
      "blue and red about white if LOW is -HIGH",
-     read_range},
+     [](const Option_words& option, Request& request) {
+       const auto& [name, words, type] = option;
+       const double low = parse_finite_number(name, words[0]), high = parse_finite_number(name, words[1]);
+       if (!(low < high))
+         fail_option(name, "'" + words[0] + "' is not less than '" + words[1] + "'", "give the smaller number first");
+       request.display.range = {low, high};
+     }},
     {"--range-of", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "FILE",
      "numbers get the colors that they have in a page of ours, .html, or would have in a mesh\n"
      "with the same attribute, .ply, so that two surfaces can be compared",
      [](const Option_words& option, Request& request) {
        if (request.display.range)
-         fail_option(option.name, "--range says which numbers have the end colors, too", "leave one of them out");
+         fail_option(option.name, option_text("range") + " says which numbers have the end colors, too",
+                     "leave one of them out");
        request.display.range_of = option.word();
      }},
     {"--arrows", MESH | VIEW | ANNOTATE | SYMMETRIES, OUTPUT, 1, "VECTOR",
@@ -277,7 +256,7 @@ const std::vector<Option_row> rows_of_outputs = {
      "also the curves on the surface where gaussian_curvature is 0 and changes its sign:\n"
      ".obj" +
          vtp + "; - writes OBJ to standard output",
-     [](const Option_words& option, Request& request) { request.curves = option.word(); }},
+     [](const Option_words& option, Request& request) { request.parabolic_curves = option.word(); }},
     {"--stats", MESH | ANNOTATE, OUTPUT, 1, "FILE.json", "also statistics: sizes, topology, status, accuracy, times",
      [](const Option_words& option, Request& request) { request.stats = option.word(); }},
 };

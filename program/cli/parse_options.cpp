@@ -4,6 +4,7 @@
 #include "attributes/estimates.h"
 #include "cli/Option_reader.h"
 #include "cli/suggestions.h"
+#include "system/front_end.h"
 #include <equiaffine/base/Input_error.h>
 
 #include <algorithm>
@@ -15,47 +16,51 @@ namespace equiaffine {
 namespace {
 
 void read_delaunay_options(Option_reader& reader) {
-  reader.refuse({"--vertices"}, "it is for --method marching-cubes", "leave it out");
+  reader.refuse({"vertices"}, "it is for " + option_text("method", "marching-cubes"), "leave it out");
   if (reader.request().source.derivatives == Derivatives::JETS)
-    reader.refuse({"--resolution"}, "--method delaunay needs no grid for a formula or a fit",
-                  "leave it out and say with --radius how fine the mesh is to be");
-  reader.read({"--angle", "--radius", "--distance"});
+    reader.refuse({"resolution"}, option_text("method", "delaunay") + " needs no grid for a formula or a fit",
+                  "leave it out and say with " + option_text("radius") + " how fine the mesh is to be");
+  reader.read({"angle", "radius", "distance"});
   check_options(reader.request().delaunay);
-  reader.read({"--sizing", "--clip"});
+  reader.read({"sizing", "clip"});
 }
 
 void read_remesh_options(Option_reader& reader) {
   const Request& request = reader.request();
-  if (request.source.kind != Source_kind::FIT)
-    fail_option("--method", "remesh is for a fit to a mesh", "add --fit FILE, or use marching-cubes or delaunay");
-  const std::string reason = "--method remesh has no grid", advice = "leave it out, or use --method marching-cubes";
-  reader.refuse({"--resolution", "--vertices"}, reason, advice);
-  reader.refuse({"--isovalue", "--box", "--parabolic-curves"},
-                "--method remesh moves the vertices of the whole mesh to the fit", advice);
-  reader.read({"--edge-length"});
+  if (request.source.kind != Source_kind::FIT || !reader.writes_files())
+    fail_option("method", "remesh is for a fit to a mesh" + by_front_end("", " in a file"),
+                by_front_end("add --fit FILE, or ", "") + "use marching-cubes or delaunay");
+  const std::string remesh = option_text("method", "remesh"), reason = remesh + " has no grid",
+                    advice = "leave it out, or use " + option_text("method", "marching-cubes");
+  reader.refuse({"resolution", "vertices"}, reason, advice);
+  reader.refuse({"level", "box", "parabolic_curves"}, remesh + " moves the vertices of the whole mesh to the fit",
+                advice);
+  reader.read({"edge_length"});
+  check_options(request.remesh);
 }
 
 /// Whether the faces of a fit, if there are any, are to be remeshed: without a method, or an option that is for others.
 bool prefers_remesh(const Option_reader& reader) {
-  constexpr std::array others = {"--method", "--isovalue", "--resolution", "--vertices", "--box", "--parabolic-curves"};
+  constexpr std::array others = {"method", "level", "resolution", "vertices", "box", "parabolic_curves"};
   return reader.request().source.kind == Source_kind::FIT &&
          std::none_of(others.begin(), others.end(), [&](const char* option) { return reader.has(option); });
 }
 
-/// Reads `--method` and the options that belong to it.
+/// Reads `method` and the options that belong to it.
 void read_method(Option_reader& reader) {
-  reader.read({"--method"});
+  reader.read({"method"});
   Request& request = reader.request();
-  if (prefers_remesh(reader) && reader.has("--edge-length")) request.method = Mesh_method::REMESH;
+  if (prefers_remesh(reader) && reader.has("edge_length")) request.method = Mesh_method::REMESH;
   const Mesh_method method = request.method;
   if (method != Mesh_method::DELAUNAY)
-    reader.refuse({"--angle", "--radius", "--distance", "--sizing", "--clip"}, "it is for --method delaunay",
-                  "add --method delaunay or leave it out");
+    reader.refuse({"angle", "radius", "distance", "sizing", "clip"}, "it is for " + option_text("method", "delaunay"),
+                  "add " + option_text("method", "delaunay") + " or leave it out");
   if (method != Mesh_method::REMESH)
-    reader.refuse({"--edge-length"}, "it is for --method remesh", "add --method remesh or leave it out");
+    reader.refuse({"edge_length"}, "it is for " + option_text("method", "remesh"),
+                  "add " + option_text("method", "remesh") + " or leave it out");
   if (method == Mesh_method::DELAUNAY) read_delaunay_options(reader);
   else if (method == Mesh_method::REMESH) read_remesh_options(reader);
-  else reader.read({"--vertices"});
+  else reader.read({"vertices"});
 }
 
 bool has_vector(const Attribute_selection& attributes, const std::string& name) {
@@ -86,42 +91,43 @@ void check_page(const Option_reader& reader) {
   const Request& request = reader.request();
   const std::string &arrows = request.display.arrows, &color = request.display.color;
   if (!arrows.empty() && !has_vector(request.attributes, arrows))
-    fail_option("--arrows", "'" + arrows + "' is not among the vectors that are computed",
-                "name one of them, such as affine_normal, or add it to --attributes");
+    fail_option("arrows", "'" + arrows + "' is not among the vectors that are computed",
+                "name one of them, such as affine_normal, or add it to " + option_text("attributes"));
   if (!color.empty() && !has_color(request, color))
-    fail_option("--color", "'" + color + "' is not among the attributes that are computed",
-                "name one of them, such as affine_mean_curvature, or add it to --attributes");
+    fail_option("color", "'" + color + "' is not among the attributes that are computed",
+                "name one of them, such as affine_mean_curvature, or add it to " + option_text("attributes"));
 }
 
 /// Throws if the paper's scheme is used in a way that needs a function, since its expansions are not those of one.
 void check_scheme(const Request& request) {
   if (request.source.spline.spline_scheme != Spline_scheme::PAPER) return;
   if (request.method != Mesh_method::MARCHING_CUBES || request.marching_cubes.vertices != Vertex_position::LINEAR ||
-      request.curves)
-    fail_option("--spline-scheme", "paper is for Marching Cubes with linear vertices and without parabolic curves",
-                "add --vertices linear, or use convolution");
+      request.parabolic_curves)
+    fail_option("spline_scheme", "paper is for Marching Cubes with linear vertices and without parabolic curves",
+                "add " + option_text("vertices", "linear") + ", or use convolution");
 }
 
 void read_mesh_options(Option_reader& reader) {
   read_source(reader);
   Request& request = reader.request();
   if (request.source.kind == Source_kind::FIT) request.estimates = error_attributes();
-  reader.read({"--isovalue", "--orientation"});
+  reader.read({"level", "orientation"});
   request.source.spline.level = request.source.level;
   read_method(reader);
-  reader.read({"--attributes", "--estimator"});
+  reader.read({"attributes", "estimator"});
+  request.source.estimates_errors = !request.estimates.empty();
+  if (!reader.writes_files()) return reader.read_rest();
   need_output(reader);
-  reader.read({"--up"});
+  reader.read({"up"});
   refuse_picture_options(reader);
   reader.read_rest();
   check_page(reader);
   check_scheme(request);
   check_outputs(input_files(reader),
-                {request.output, request.display.html, request.display.png, request.curves, request.stats});
-  request.delaunay.parabolic_curves = request.curves.has_value();
+                {request.output, request.display.html, request.display.png, request.parabolic_curves, request.stats});
+  request.delaunay.parabolic_curves = request.parabolic_curves.has_value();
   request.remeshes_faces = prefers_remesh(reader) && request.method == Mesh_method::MARCHING_CUBES;
-  request.source.estimates_errors =
-      !request.estimates.empty() || (request.display.shows_something() && has_column_with_error(request));
+  if (request.display.shows_something() && has_column_with_error(request)) request.source.estimates_errors = true;
   choose_up(request.source.kind, request.display);
 }
 
@@ -130,13 +136,15 @@ void read_evaluate_options(Option_reader& reader) {
   Request& request = reader.request();
   if (request.source.kind == Source_kind::FIT) request.estimates = error_attributes();
   reader.read_rest();
-  reader.need("--points", "name the file with the points");
-  need_output(reader);
-  for (const char* option : {"--distance-to", "--fit"})
-    if (reader.has(option) && request.source.text == "-" && request.points == "-")
-      throw Input_error(option + std::string(" and --points both read standard input; name a file for one of them"));
-  check_outputs(input_files(reader), {request.output});
   request.source.estimates_errors = !request.estimates.empty();
+  if (!reader.writes_files()) return;
+  reader.need("points", "name the file with the points");
+  need_output(reader);
+  for (const char* option : {"distance_to", "fit"})
+    if (reader.has(option) && request.source.text == "-" && request.points == "-")
+      throw Input_error(option_text(option) + " and " + option_text("points") +
+                        " both read standard input; name a file for one of them");
+  check_outputs(input_files(reader), {request.output});
 }
 
 void read_sample_options(Option_reader& reader) {
@@ -149,11 +157,11 @@ void read_sample_options(Option_reader& reader) {
 void read_view_options(Option_reader& reader) {
   if (!reader.has("MESH.ply")) throw Input_error("no mesh is given; write 'equiaffine view MESH.ply -o PAGE.html'");
   check_is_viewable(reader.word("MESH.ply"));
-  reader.read({"--up"});
+  reader.read({"up"});
   refuse_picture_options(reader);
   reader.read_rest();
   Request& request = reader.request();
-  if (reader.has("--output")) request.display.html = request.output;
+  if (reader.has("output")) request.display.html = request.output;
   else if (!request.display.png)
     throw Input_error("no output is given; name the page, -o PAGE.html, or the picture, --png FILE.png");
   check_outputs(input_files(reader), {request.display.html, request.display.png});
@@ -164,9 +172,10 @@ void read_annotate_options(Option_reader& reader) {
   check_is_annotatable(reader.word("MESH"));
   Request& request = reader.request();
   request.estimates = error_attributes();
-  reader.read({"--scale", "--noise", "--degree", "--feature-angle", "--attributes"});
+  reader.read({"scale", "noise", "degree", "feature_angle", "attributes"});
+  if (!reader.writes_files()) return reader.read_rest();
   need_output(reader);
-  reader.read({"--up"});
+  reader.read({"up"});
   refuse_picture_options(reader);
   reader.read_rest();
   check_page(reader);
@@ -175,12 +184,10 @@ void read_annotate_options(Option_reader& reader) {
 
 } // namespace
 
-Request parse_options(const std::vector<std::string>& arguments) {
-  if (!arguments.empty() && arguments.front() == "register") return parse_register_options(arguments);
-  const Command_line line = split_command_line(arguments);
+Request read_options(const Command_line& line) {
   Option_reader reader(line);
   if (line.information) return reader.request();
-  reader.read({"--threads", "--memory"});
+  reader.read({"threads", "memory"});
   switch (line.command) {
   case MESH: read_mesh_options(reader); break;
   case EVALUATE: read_evaluate_options(reader); break;
@@ -191,6 +198,11 @@ Request parse_options(const std::vector<std::string>& arguments) {
   case REGISTER: break; // has a line for each source
   }
   return reader.request();
+}
+
+Request parse_options(const std::vector<std::string>& arguments) {
+  if (!arguments.empty() && arguments.front() == "register") return parse_register_options(arguments);
+  return read_options(split_command_line(arguments));
 }
 
 } // namespace equiaffine

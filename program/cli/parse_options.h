@@ -2,7 +2,7 @@
 #ifndef EQUIAFFINE_PROGRAM_CLI_PARSE_OPTIONS_H
 #define EQUIAFFINE_PROGRAM_CLI_PARSE_OPTIONS_H
 
-#include "request/Request.h"
+#include "cli/command_line.h"
 
 #include <string>
 #include <vector>
@@ -11,6 +11,12 @@ namespace equiaffine {
 
 /// Reads the command line, without the program's name. Throws `Input_error` for everything that makes no sense.
 Request parse_options(const std::vector<std::string>& arguments);
+
+/// The same of a line that is split.
+Request read_options(const Command_line& line);
+
+/// The same of the two lines of `register`. Options that belong to neither source are on the first one.
+Request read_options(const Command_line& source, const Command_line& target);
 
 } // namespace equiaffine
 

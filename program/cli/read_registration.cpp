@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/Option_reader.h"
+#include "cli/parse_options.h"
 #include <equiaffine/base/Input_error.h>
 
 #include <algorithm>
@@ -17,10 +18,9 @@ constexpr const char* usage = "write 'equiaffine register SOURCE to SOURCE -o MA
 /// The number of words that an option takes whatever they look like; 0 for what is no option.
 std::size_t words_taken(const std::string& word) {
   for (const Option_row* row : options_of(REGISTER)) {
-    const std::size_t comma = row->names.find(',');
-    const bool is_short = comma != std::string::npos && word == row->names.substr(0, comma);
-    if (word == row->name() || is_short) return std::size_t(row->words.least);
-    if (word.starts_with(row->name() + '=')) return std::size_t(std::max(row->words.least, 1)) - 1;
+    if (row->has_name(word)) return std::size_t(row->words.least);
+    if (word.starts_with("--") && row->has_name(word.substr(0, word.find('='))))
+      return std::size_t(std::max(row->words.least, 1)) - 1;
   }
   return 0;
 }
@@ -44,10 +44,10 @@ void move_common_options(Command_line& from, Command_line& to) {
 
 void read_surface(Option_reader& reader) {
   read_source(reader);
-  reader.read({"--isovalue"});
+  reader.read({"level"});
   Source_options& source = reader.request().source;
   if (source.spline.spline_scheme == Spline_scheme::PAPER)
-    fail_option("--spline-scheme", "paper has no expansions that belong to one function", "use quasi-interpolation");
+    fail_option("spline_scheme", "paper has no expansions that belong to one function", "use quasi-interpolation");
   source.spline.level = source.level;
   source.is_registered = true;
 }
@@ -60,44 +60,48 @@ void read_outputs(Option_reader& reader, std::initializer_list<std::string_view>
   reader.read_rest();
   const std::string& color = reader.request().display.color;
   if (!color.empty() && std::find(colors.begin(), colors.end(), color) == colors.end())
-    fail_option("--color", "'" + color + "' is not known", "use distance or plain");
+    fail_option("color", "'" + color + "' is not known", "use distance or plain");
 }
 
-void read_register_options(Option_reader& reader, Option_reader& target_reader) {
+} // namespace
+
+Request read_options(const Command_line& source, const Command_line& target) {
+  Option_reader reader(source), target_reader(target);
+  reader.read({"threads"});
   read_surface(reader);
   read_surface(target_reader);
   Request& request = reader.request();
   request.target = target_reader.request().source;
+  if (!reader.writes_files()) {
+    reader.read_rest();
+    return request;
+  }
   if (request.source.text == "-" && request.target.text == "-")
     throw Input_error("both sources read standard input; name a file for one of them");
   read_outputs(reader, {"distance", "surface", "plain"});
   std::vector<std::string> inputs = input_files(reader);
   for (const std::string& file : input_files(target_reader)) inputs.push_back(file);
   check_outputs(inputs, {request.output, request.moved, request.display.html, request.display.png});
-  for (const auto* source : {&request.source, &request.target}) choose_up(source->kind, request.display);
+  for (const auto* side : {&request.source, &request.target}) choose_up(side->kind, request.display);
+  return request;
 }
-
-} // namespace
 
 Request parse_register_options(const Words& arguments) {
   const auto to = find_to(arguments);
   Command_line line = split_command_line(Words(arguments.begin(), to));
-  Option_reader reader(line);
-  if (line.information) return reader.request();
+  if (line.information) return Option_reader(line).request();
   if (to == arguments.end()) throw Input_error(std::string("the word 'to' between two sources is missing; ") + usage);
   Words rest = {arguments.front()};
   rest.insert(rest.end(), to + 1, arguments.end());
   Command_line target = split_command_line(rest);
-  Option_reader target_reader(target);
-  if (target.information) return target_reader.request();
+  if (target.information) return Option_reader(target).request();
   move_common_options(target, line);
-  reader.read({"--threads"});
-  read_register_options(reader, target_reader);
-  return reader.request();
+  return read_options(line, target);
 }
 
 void read_symmetries_options(Option_reader& reader) {
   read_surface(reader);
+  if (!reader.writes_files()) return reader.read_rest();
   read_outputs(reader, {"distance", "surface", "plain"});
   Request& request = reader.request();
   check_outputs(input_files(reader), {request.output, request.display.html, request.display.png});

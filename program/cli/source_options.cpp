@@ -16,53 +16,9 @@ void read_source(Source_kind kind, const Option_words& option, Request& request)
   request.source.text = option.word();
 }
 
-void read_function(const Option_words& option, Request& request) {
-  read_source(Source_kind::FUNCTION, option, request);
-  if (const auto file = formula_file(option.word())) request.source.text = read_formula(*file);
-}
-
-void read_constants(const Option_words& option, Request& request) {
-  for (const std::string& word : option.words)
-    if (!request.source.constants.insert(parse_constant(option.name, word)).second)
-      fail_option(option.name + " " + word, "the name has a value already", "give each name once");
-}
-
-void read_narrow_band(const Option_words& option, Request& request) {
-  const double band = parse_number(option);
-  if (!(band >= 1)) fail_option(option.name, "'" + option.word() + "' is less than 1 voxel", "give some 16 voxels");
-  request.source.narrow_band = band;
-}
-
 Raw_layout& raw_layout(Request& request) {
   if (!request.source.raw) request.source.raw.emplace();
   return *request.source.raw;
-}
-
-void read_raw_dims(const Option_words& option, Request& request) {
-  for (std::size_t a = 0; a < 3; ++a) raw_layout(request).dims[a] = parse_count(option.name, option.words[a], 2);
-}
-
-void read_scale(const Option_words& option, Request& request) {
-  if (option.word() == "auto") return;
-  request.source.fit.scale = option.word() == "none" ? 0 : parse_number(option);
-  if (option.word() != "none" && !(*request.source.fit.scale > 0))
-    fail_option(option.name, "'" + option.word() + "' is not a length", "give a length above 0, auto or none");
-}
-
-void read_noise(const Option_words& option, Request& request) {
-  if (option.word() == "auto") return;
-  request.source.fit.noise = parse_number(option);
-  check_options(request.source.fit);
-}
-
-void read_degree(const Option_words& option, Request& request) {
-  request.source.fit.degree = parse_choice<std::optional<int>>(
-      option, {{"4", 4}, {"5", 5}, {"6", 6}, {"8", 8}, {"10", 10}, {"auto", std::nullopt}});
-}
-
-void read_feature_angle(const Option_words& option, Request& request) {
-  request.source.fit.feature_angle = parse_number(option);
-  check_options(request.source.fit);
 }
 
 constexpr Commands sampled = MESH | EVALUATE | SAMPLE | registering, fitting = sampled | ANNOTATE;
@@ -81,20 +37,33 @@ const std::vector<Option_row> rows_of_sources = {
      "a formula in x, y, z: + - * / ^ ( ) pi e sqrt cbrt exp log sin cos tan\n"
      "asin acos atan atan2 sinh cosh tanh abs min max hypot erf floor sign fmod pow;\n"
      "lhs = rhs means lhs - rhs; @FILE reads it from a file",
-     read_function},
-    {"--set",
+     [](const Option_words& option, Request& request) {
+       read_source(Source_kind::FUNCTION, option, request);
+       if (const auto file = formula_file(option.word())) request.source.text = read_formula(*file);
+     }},
+    {"--constants,--set",
      sampled,
      SOURCE,
      {1, unlimited},
      "NAME=VALUE ...",
      "constants of the formula: numbers, or arithmetic such as 2*pi/3",
-     read_constants},
+     [](const Option_words& option, Request& request) {
+       for (const std::string& word : option.words)
+         if (!request.source.constants.insert(parse_constant(option.name, word)).second)
+           fail_option(option.name + " " + word, "the name has a value already", "give each name once");
+     }},
     {"--distance-to", sampled, SOURCE, 1, "MESH",
      "the signed distance, negative inside, to a closed mesh: .off .ply .obj .stl; - reads\n"
      "OFF from standard input",
      [](const Option_words& option, Request& request) { read_source(Source_kind::DISTANCE, option, request); }},
     {"--narrow-band", sampled, SOURCE, 1, "N",
-     "measure distances up to N voxels only, which is faster; 16 are enough without --smoothing", read_narrow_band},
+     "measure distances up to N voxels only, which is faster; 16 are enough without --smoothing",
+     [](const Option_words& option, Request& request) {
+       const double band = parse_number(option);
+       if (!(band >= 1))
+         fail_option(option.name, "'" + option.word() + "' is less than 1 voxel", "give some 16 voxels");
+       request.source.narrow_band = band;
+     }},
     {"--fit", sampled, SOURCE, 1, "MESH|POINTS",
      "polynomials fitted to the vertices of a mesh, .ply .off .obj .stl, or to points, .csv\n"
      ".xyz: a smooth function about as large as the distance, known near them only",
@@ -114,13 +83,18 @@ const std::vector<Option_row> rows_of_sources = {
      }},
     {"--allow-outside", MESH | EVALUATE | registering, SOURCE, 0, "",
      "read data that the header of a volume names outside of its own folder",
-     [](const Option_words&, Request& request) { request.source.selection.allows_outside = true; }},
+     [](const Option_words& option, Request& request) { request.source.selection.allow_outside = parse_flag(option); }},
     {"--dims", MESH | EVALUATE | registering, SOURCE, 3, "NX NY NZ",
-     "nodes of a .raw, which has no header; x runs fastest", read_raw_dims},
+     "nodes of a .raw, which has no header; x runs fastest",
+     [](const Option_words& option, Request& request) {
+       for (std::size_t a = 0; a < 3; ++a) raw_layout(request).dims[a] = parse_count(option.name, option.words[a], 2);
+     }},
     {"--type", MESH | EVALUATE | registering, SOURCE, 1, "TYPE",
      "type of the samples of a .raw: uint8 int8 uint16 int16 uint32 int32 uint64 int64\n"
      "float double",
-     [](const Option_words& option, Request& request) { raw_layout(request).type = parse_choice(option, raw_types); }},
+     [](const Option_words& option, Request& request) {
+       raw_layout(request).type = parse_choice(option, Words(raw_types.begin(), raw_types.end()));
+     }},
     {"--spacing", MESH | EVALUATE | registering, SOURCE, 3, "DX DY DZ",
      "steps between the nodes of a .raw, by default 1 1 1",
      [](const Option_words& option, Request& request) { raw_layout(request).spacing = parse_triple(option); }},
@@ -146,17 +120,32 @@ const std::vector<Option_row> rows_of_sources = {
      "about R. By default (auto) they are the surface's own where the data resolve them, else\n"
      "those at the smallest scale at which half of the vertices are known to 20 %, up to an eighth\n"
      "of the size; none insists on the surface's own",
-     read_scale},
+     [](const Option_words& option, Request& request) {
+       if (option.word() == "auto") return;
+       request.source.fit.scale = option.word() == "none" ? 0 : parse_number(option);
+       if (option.word() != "none" && !(*request.source.fit.scale > 0))
+         fail_option(option.name, "'" + option.word() + "' is not a length", "give a length above 0, auto or none");
+     }},
     {"--noise", fitting, FIT, 1, "S|auto",
      "the standard deviation of the points from the surface, a length; estimated (auto) by\n"
      "default",
-     read_noise},
+     [](const Option_words& option, Request& request) {
+       if (option.word() == "auto") return;
+       request.source.fit.noise = parse_number(option);
+       check_options(request.source.fit);
+     }},
     {"--degree", fitting, FIT, 1, "4|5|6|8|10|auto",
-     "the degree of the polynomials that are fitted, by default chosen by the data (auto)", read_degree},
+     "the degree of the polynomials that are fitted, by default chosen by the data (auto)",
+     [](const Option_words& option, Request& request) {
+       request.source.fit.degree = parse_choice<std::optional<int>>(option, {4, 5, 6, 8, 10, std::nullopt});
+     }},
     {"--feature-angle", fitting, FIT, 1, "DEG",
      "edges of a mesh that bend by more than this angle, by default 60, are creases if they follow\n"
      "each other: polynomials do not reach over them, and a remesh keeps them; 180 for none",
-     read_feature_angle},
+     [](const Option_words& option, Request& request) {
+       request.source.fit.feature_angle = parse_number(option);
+       check_options(request.source.fit);
+     }},
 };
 
 } // namespace

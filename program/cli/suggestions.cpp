@@ -111,7 +111,7 @@ std::string first_source(const Command_line& line) { return line.has("FILE") ? l
 
 bool has_source(const Command_line& line) {
   return std::any_of(line.options.begin(), line.options.end(), [](const auto& option) {
-    for (const char* name : {"FILE", "--function", "--volume", "--distance-to", "--fit", "MESH", "MESH.ply"})
+    for (const char* name : {"FILE", "function", "volume", "distance_to", "fit", "MESH", "MESH.ply"})
       if (option.first == name) return true;
     return false;
   });
@@ -142,13 +142,13 @@ std::string advice_on_word(const Command_line& line, const std::string& word) {
   if (line.command == SYMMETRIES && (word == "to" || (is_surface && has_source(line))))
     return "symmetries are those of one surface, and 'equiaffine register " + first_source(line) + " to " +
            (is_surface ? word : "OTHER") + " -o MAP.json' finds maps between two";
-  if (!is_surface && line.has("--function"))
+  if (!is_surface && line.has("function"))
     return is_number(word) ? "" : "put the formula into quotes if it has spaces, --function 'x^2 + y^2 = 1'";
   if (!is_surface && kind != Word_kind::FORMULA) return {};
   if (line.command == REGISTER && is_surface)
     return "one surface stands before the word 'to' and one after it: 'equiaffine register " + first_source(line) +
            " to " + word + " -o MAP.json'";
-  if (has_source(line)) return !is_surface || line.has("--output") ? "" : "name the output by -o " + word;
+  if (has_source(line)) return !is_surface || line.has("output") ? "" : "name the output by -o " + word;
   return advice_on_source(line.command, kind, word);
 }
 
@@ -183,7 +183,7 @@ void check_is_annotatable(const std::string& path) {
                       "\" --box ... -o OUT.ply' for a formula");
   if (kind == Word_kind::VOLUME_FILE && file_format(path) != File_format::UNNAMED)
     throw Input_error("cannot annotate '" + path + "': a volume has no vertices; use 'equiaffine mesh --volume " +
-                      path + output + " and --isovalue for another level than 0");
+                      path + output + " and --level for another level than 0");
 }
 
 void check_is_viewable(const std::string& path) {
@@ -197,7 +197,7 @@ void check_is_viewable(const std::string& path) {
                       " for the surface through them");
   if (kind == Word_kind::VOLUME_FILE && file_format(path) != File_format::UNNAMED)
     throw Input_error("cannot show '" + path + "': a volume has no mesh; use 'equiaffine mesh --volume " + path +
-                      outputs + " and --isovalue for another level than 0");
+                      outputs + " and --level for another level than 0");
 }
 
 } // namespace equiaffine

@@ -6,6 +6,7 @@
 #include "source/read_mesh.h"
 #include "source/source.h"
 #include "source/source_function.h"
+#include "system/front_end.h"
 #include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/mesh/internal/Triangle_tree_3.h>
 #include <equiaffine/registration/internal/Surface_to_register.h>
@@ -42,7 +43,7 @@ Mesh extract(const Source_function& function, const Source_options& options, Pro
   auto surface = extract_surface(function, options.level, options, Vertex_position::PROJECTED);
   if (surface.triangles.empty() && (options.kind != Source_kind::FIT || options.level != 0))
     fail_without_surface(function, options, options.level,
-                         {"box", "a finer --resolution", surface.repairs.vertices_at_poles > 0});
+                         {"box", "a finer " + option_text("resolution"), surface.repairs.vertices_at_poles > 0});
   return surface;
 }
 

@@ -61,6 +61,7 @@ void run_evaluate(const Request& options, std::ostream& out, Progress& progress)
   progress.begin("reading the points");
   const Point_table_3<Kernel> table = read_points<Kernel>(options.points);
   const std::vector<Kernel::Point_3>& points = table.mesh.points;
+  if (table.mesh.triangles.empty()) refuse_attributes_of_mesh(options.attributes);
   const Source source = make_source(options.source, progress);
   Vertex_attributes attributes = evaluate_points(options, source, table.mesh, progress);
   progress.begin("writing");

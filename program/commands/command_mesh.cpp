@@ -126,10 +126,10 @@ std::string summary(const Parabolic_curves_3<Kernel>& curves) {
 Outputs outputs_of_mesh(const Request& options) {
   check_surface_output(options.output);
   check_display_outputs(options.display);
-  if (options.curves) check_curves_output(*options.curves);
+  if (options.parabolic_curves) check_curves_output(*options.parabolic_curves);
   if (options.stats) check_statistics_output(*options.stats);
   Outputs outputs(options.output, options.display);
-  outputs.add(Output_kind::CURVES, options.curves);
+  outputs.add(Output_kind::CURVES, options.parabolic_curves);
   outputs.add(Output_kind::STATISTICS, options.stats);
   return outputs;
 }
@@ -137,7 +137,7 @@ Outputs outputs_of_mesh(const Request& options) {
 /// Whether a single file of vertices is all that needs the attributes, so that nobody has to keep them.
 bool are_attributes_only_written(const Request& options) {
   return is_written_in_parts(options.output) && options.source.kind != Source_kind::FIT &&
-         !options.source.estimates_errors && !options.display.shows_something() && !options.curves;
+         !options.source.estimates_errors && !options.display.shows_something() && !options.parabolic_curves;
 }
 
 /// Computes the attributes of a surface, and writes those of some vertices while those of the next ones are computed.
@@ -203,7 +203,7 @@ void run_mesh(const Request& options, std::ostream& out, Progress& progress) {
   warn_of_lost_points(options.output, surface.mesh.points, progress);
   if (!outputs.use_standard_output()) {
     out << summary(statistics);
-    if (options.curves) out << summary(*surface.curves);
+    if (options.parabolic_curves) out << summary(*surface.curves);
     outputs.report(out);
   }
 }

@@ -9,6 +9,7 @@
 #include "output/maps_display.h"
 #include "picture/draw_surface.h"
 #include "system/files.h"
+#include "system/front_end.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/registration/internal/Surface_to_register.h>
 #include <equiaffine/registration/register_surfaces.h>
@@ -53,7 +54,7 @@ void run_register(const Request& options, std::ostream& out, Progress& progress)
   if (is_shown) {
     const auto [mesh, attributes] =
         registered_surfaces(found.source, found.target, distances_from_surfaces(found), report.registration);
-    const Display_options display = display_of(report, options.display);
+    const Display_request display = display_of(report, options.display);
     write_displays(
         outputs, mesh, attributes, display,
         {page_title(options.output, "Registration"), description_of(report, display), notes_of(report, display)});
@@ -80,9 +81,9 @@ void run_symmetries(const Request& options, std::ostream& out, Progress& progres
   if (options.display.shows_something()) {
     const auto [mesh, attributes] = found.shown();
     if (!options.display.arrows.empty() && !vector_columns(attributes, options.display.arrows))
-      throw Input_error("--arrows: there is no vector '" + options.display.arrows +
+      throw Input_error(option_text("arrows") + ": there is no vector '" + options.display.arrows +
                         "'; a continuous symmetry has generator1, and more of them if there are more dimensions");
-    const Display_options display = display_of(report, options.display);
+    const Display_request display = display_of(report, options.display);
     write_displays(
         outputs, mesh, attributes, display,
         {page_title(options.output, "Symmetries"), description_of(report, display), notes_of(report, display)});

@@ -3,6 +3,7 @@
 #include "output/displays.h"
 #include "picture/draw_surface.h"
 #include "system/files.h"
+#include "system/front_end.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/io/internal/input_file.h>
 #include <equiaffine/io/read_points.h>
@@ -27,13 +28,14 @@ void check_color(const std::string& color, const Vertex_attributes& attributes) 
   if (color.empty() || color == "plain" || (color == "status" && attributes.status) || is_column) return;
   std::string names;
   for (const auto& column : attributes.columns) names += column.name + ' ';
-  throw Input_error("--color: the mesh has no attribute '" + color + "'; use one of " + names + "or plain");
+  throw Input_error(option_text("color") + ": the mesh has no attribute '" + color + "'; use one of " + names +
+                    "or plain");
 }
 
 void check_arrows(const std::string& arrows, const Vertex_attributes& attributes) {
   if (!arrows.empty() && !vector_columns(attributes, arrows))
-    throw Input_error("--arrows: the mesh has no vector '" + arrows + "'; it needs columns " + arrows + "_x, " +
-                      arrows + "_y and " + arrows + "_z");
+    throw Input_error(option_text("arrows") + ": the mesh has no vector '" + arrows + "'; it needs columns " + arrows +
+                      "_x, " + arrows + "_y and " + arrows + "_z");
 }
 
 } // namespace
@@ -43,9 +45,11 @@ Outputs show(const Annotated_mesh_3<Kernel>& surface, const std::string& name, c
   Outputs outputs;
   outputs.add_displays(options.display);
   if (options.display.html && surface.mesh.triangles.empty())
-    throw Input_error("cannot show '" + name +
-                      "': it has no faces; --png draws the points, and 'equiaffine mesh --fit " + options.input +
-                      " -o OUT.ply --html PAGE.html' shows the surface through the points");
+    throw Input_error("cannot show '" + name + "': it has no faces; " +
+                      by_front_end("--png draws the points, and 'equiaffine mesh --fit " + options.input +
+                                       " -o OUT.ply --html PAGE.html' shows",
+                                   "a .png draws the points, and fit(V).mesh() has") +
+                      " the surface through the points");
   check_color(options.display.color, surface.attributes);
   check_arrows(options.display.arrows, surface.attributes);
   const Description fit = description_of_fit(surface.attributes);

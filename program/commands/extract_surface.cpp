@@ -4,6 +4,7 @@
 #include "source/evaluate_source.h"
 #include "source/source.h"
 #include "source/source_function.h"
+#include "system/front_end.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/fit/remove_small_fragments.h>
 #include <equiaffine/function/Any_function_3.h>
@@ -135,14 +136,14 @@ std::string zeros_without_change_of_sign(const Any_function_3& f) {
   if (!CGAL::do_overlap(box, band)) {
     text << "no part of " << fitted << " is in the " << search.place << ": it lies in " << band.xmin() << ' '
          << band.xmax() << ' ' << band.ymin() << ' ' << band.ymax() << ' ' << band.zmin() << ' ' << band.zmax()
-         << "; choose a --box that meets that, or leave it out";
+         << "; choose a " << option_text("box") << " that meets that, or leave it out";
   } else if (isovalue != 0) {
     text << "no surface f = " << isovalue << ": " << fitted
-         << " is about the distance from the data, and known within some two spacings of them only; choose an "
-            "--isovalue nearer to 0, or leave it out";
+         << " is about the distance from the data, and known within some two spacings of them only; choose a "
+         << option_text("level") << " nearer to 0, or leave it out";
   } else {
-    text << "no part of the surface of " << fitted << " was found in the " << search.place
-         << "; choose a --box that has more of the data, or "
+    text << "no part of the surface of " << fitted << " was found in the " << search.place << "; choose a "
+         << option_text("box") << " that has more of the data, or "
          << (search.refinement.empty() ? "leave it out" : search.refinement);
   }
   throw Input_error(text.str());
@@ -184,14 +185,14 @@ void fail_without_surface(const Source_function& function, const Source_options&
     text << "at the nodes of a grid f" << (may_be_erased ? ", smoothed," : "") << " lies between " << least << " and "
          << greatest;
   else text << "at the nodes of a grid f is undefined";
-  if (source.narrow_band) text << " in the band of --narrow-band " << *source.narrow_band;
+  if (source.narrow_band) text << " in the band of " << option_text("narrow_band") << ' ' << *source.narrow_band;
   if (search.met_poles) text << ", and changes its sign at poles or jumps only";
   text << "; choose ";
-  if (!zeros.empty()) text << "another --isovalue, or a function that changes its sign there";
+  if (!zeros.empty()) text << "another " << option_text("level") << ", or a function that changes its sign there";
   else if (may_help && has_both_signs) text << search.refinement;
   else
-    text << (may_be_erased ? "a smaller --smoothing, which erases what is thin, " : "")
-         << (source.narrow_band ? "a wider band, " : "") << "another --isovalue or box"
+    text << (may_be_erased ? "a smaller " + option_text("smoothing") + ", which erases what is thin, " : "")
+         << (source.narrow_band ? "a wider band, " : "") << "another " << option_text("level") << " or box"
          << (may_help ? ", or " + search.refinement : "");
   throw Input_error(text.str());
 }

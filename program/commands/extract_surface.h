@@ -22,7 +22,7 @@ Isosurface_3<Kernel> extract_surface(const Source_function& function, double iso
 /// What is known of a search for a surface that found none.
 struct Vain_search {
   std::string place;         ///< where it was looked for, "box" or "ball"
-  std::string refinement;    ///< what may find more of the surface, such as "a smaller --radius"; empty if nothing can
+  std::string refinement;    ///< what may find more of the surface, such as "a smaller radius"; empty if nothing can
   bool met_poles;            ///< whether f changes its sign at poles or jumps only
   bool is_certified = false; ///< whether it is proved that there is none
 };

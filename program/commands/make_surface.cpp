@@ -8,6 +8,7 @@
 #include "source/source_function.h"
 #include "source/warnings.h"
 #include "system/expected_duration.h"
+#include "system/front_end.h"
 #include "system/memory_limit.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/delaunay/delaunay_surface.h>
@@ -38,8 +39,9 @@ void check_box_of_delaunay_surface(const CGAL::Bbox_3& box) {
   if (range.has_box()) return;
   std::ostringstream text;
   text << "the box of the function has the diagonal " << range.diagonal() << ", and coordinates to "
-       << std::max(range.diagonal(), range.greatest_coordinate()) << "; --method delaunay works with numbers from "
-       << internal::Delaunay_range::least << " to " << internal::Delaunay_range::greatest << ": choose another unit";
+       << std::max(range.diagonal(), range.greatest_coordinate()) << "; " << option_text("method", "delaunay")
+       << " works with numbers from " << internal::Delaunay_range::least << " to " << internal::Delaunay_range::greatest
+       << ": choose another unit";
   throw Input_error(text.str());
 }
 
@@ -49,7 +51,8 @@ void check_radius_of_delaunay_surface(const CGAL::Bbox_3& box, double radius) {
   if (radius >= range.least_radius()) return;
   std::ostringstream text;
   text << "a radius of " << radius << " is too small beside coordinates to " << range.greatest_coordinate()
-       << ", which takes " << range.least_radius() << ": choose a larger --radius, or an origin nearer to the box";
+       << ", which takes " << range.least_radius() << ": choose a larger " << option_text("radius")
+       << ", or an origin nearer to the box";
   throw Input_error(text.str());
 }
 
@@ -61,7 +64,7 @@ void announce_duration_on_grid(const std::string& stage, const Source_options& o
   if (options.kind == Source_kind::VOLUME) return; // the volume has the grid
   const std::array<std::size_t, 3> size = options.resolution.value_or(default_resolution(options.kind));
   const double fineness = double(*std::max_element(size.begin(), size.end()));
-  announce_duration(stage, "a smaller --resolution", fineness, true, progress, [&](double coarse) {
+  announce_duration(stage, "a smaller " + option_text("resolution"), fineness, true, progress, [&](double coarse) {
     Source_options with_grid = options;
     with_grid.resolution = size;
     for (std::size_t& n : *with_grid.resolution)
@@ -83,7 +86,7 @@ Annotated_surface sample_on_grid(const Source_function& function, const Request&
   surface.mesh = extract(options.source);
   if (surface.mesh.triangles.empty())
     fail_without_surface(function, options.source, options.source.level,
-                         {"box", "a finer --resolution", surface.mesh.repairs.vertices_at_poles > 0});
+                         {"box", "a finer " + option_text("resolution"), surface.mesh.repairs.vertices_at_poles > 0});
   return surface;
 }
 
@@ -101,23 +104,25 @@ Annotated_surface sample_by_delaunay(const Source_function& function, const Requ
   check_memory_of_delaunay_surface(diagonal, radius, distance, options.source.memory_use);
   check_radius_of_delaunay_surface(box, radius);
   const double fineness = diagonal / std::min(radius, std::sqrt(distance * diagonal));
-  announce_duration(extracting, "a larger --radius or --distance", fineness, false, progress, [&](double coarse) {
-    const double factor = fineness / coarse;
-    Delaunay_options coarser = delaunay;
-    coarser.parabolic_curves = false;
-    coarser.radius = std::min(factor * radius, diagonal);
-    coarser.distance = std::min(factor * factor * distance, diagonal);
-    delaunay_surface(level_set, coarser);
-  });
+  announce_duration(extracting, "a larger " + option_text("radius") + " or " + option_text("distance"), fineness, false,
+                    progress, [&](double coarse) {
+                      const double factor = fineness / coarse;
+                      Delaunay_options coarser = delaunay;
+                      coarser.parabolic_curves = false;
+                      coarser.radius = std::min(factor * radius, diagonal);
+                      coarser.distance = std::min(factor * factor * distance, diagonal);
+                      delaunay_surface(level_set, coarser);
+                    });
   progress.begin(extracting);
   auto mesh = delaunay_surface(level_set, delaunay);
   if (mesh.triangles.empty())
     fail_without_surface(function, options.source, options.source.level,
-                         {domain.is_ball() ? "ball" : "box", mesh.is_certified ? "" : "a smaller --radius",
+                         {domain.is_ball() ? "ball" : "box",
+                          mesh.is_certified ? "" : "a smaller " + option_text("radius"),
                           changes_sign_at_poles_only(function, options.source.level), mesh.is_certified});
   Annotated_surface surface;
   surface.completeness = {mesh.is_certified, std::move(mesh.undecided_boxes)};
-  if (options.curves) surface.curves = std::move(mesh.parabolic_curves);
+  if (options.parabolic_curves) surface.curves = std::move(mesh.parabolic_curves);
   surface.mesh = std::move(mesh);
   return surface;
 }
@@ -170,7 +175,8 @@ Annotated_surface annotated_surface(const Source& source, const Request& options
   if (source.fit && !surface.remesh) {
     remove_small_fragments(surface.mesh, *source.fit, options.source);
     if (surface.mesh.triangles.empty())
-      fail_without_surface(source.function, options.source, options.source.level, {"box", "a finer --resolution", false});
+      fail_without_surface(source.function, options.source, options.source.level,
+                           {"box", "a finer " + option_text("resolution"), false});
     if (options.method == Mesh_method::MARCHING_CUBES)
       surface.close_sheets = source.fit->close_sheets(longest_step(source.fit->bbox(), options.source));
   }
@@ -189,7 +195,7 @@ Annotated_surface annotated_surface(const Source& source, const Request& options
   if (surface.remesh && !options.attributes.columns.empty())
     surface.attributes.columns.push_back({"fit_outcome", std::move(surface.outcomes)});
   surface.annotation_seconds = stopwatch.seconds();
-  if (options.curves && !surface.curves) {
+  if (options.parabolic_curves && !surface.curves) {
     progress.begin("finding parabolic curves");
     surface.curves = parabolic_curves<CGAL::Parallel_if_available_tag>(
         surface.mesh, any_level_set(source.function, options.source.level, options.orientation));

@@ -47,7 +47,7 @@ struct Made_surface {
 enum class Attribute_time { WITH_SURFACE, LATER };
 
 /// Makes the surface. Where the data choose the scale of a fit, the source may be one at a smaller scale: see
-/// doc/program.md on `--method remesh`.
+/// doc/program.md on the method `remesh`.
 Made_surface make_surface(const Request& options, Progress& progress,
                           Attribute_time time = Attribute_time::WITH_SURFACE);
 

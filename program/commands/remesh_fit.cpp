@@ -2,6 +2,7 @@
 #include "commands/Surface_to_register.h"
 #include "commands/make_surface.h"
 #include "source/read_mesh.h"
+#include "system/front_end.h"
 #include <equiaffine/attributes/remesh_by_fit.h>
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/fit/Fitted_function_traits_3.h>
@@ -26,8 +27,8 @@ using Outcomes = Mesh::Property_map<Mesh::Vertex_index, Fit_outcome>;
 
 Mesh mesh_of_data(const Indexed_triangle_mesh_3<Kernel>& data, const Source_options& options) {
   if (data.triangles.empty())
-    throw Input_error("--method remesh: '" + options.text +
-                      "' has points without faces; use --method marching-cubes, or give a mesh");
+    throw Input_error(option_text("method", "remesh") + ": '" + options.text + "' has points without faces; use " +
+                      option_text("method", "marching-cubes") + ", or give a mesh");
   return to_surface(data, options.text);
 }
 

@@ -13,7 +13,7 @@
 
 namespace equiaffine {
 
-Outputs::Outputs(const std::string& result, const Display_options& display) {
+Outputs::Outputs(const std::string& result, const Display_request& display) {
   add(Output_kind::RESULT, result);
   add_displays(display);
 }
@@ -24,7 +24,7 @@ void Outputs::add(Output_kind kind, const std::optional<std::string>& path) {
   kinds_.push_back(kind);
 }
 
-void Outputs::add_displays(const Display_options& options) {
+void Outputs::add_displays(const Display_request& options) {
   add(Output_kind::PAGE, options.html);
   add(Output_kind::PICTURE, options.png);
 }

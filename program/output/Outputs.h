@@ -29,14 +29,14 @@ public:
   Outputs() = default;
 
   /// Adds the result, then page and picture, as far as they are asked for.
-  Outputs(const std::string& result, const Display_options& display);
+  Outputs(const std::string& result, const Display_request& display);
 
   /// Throws `Input_error` if the file cannot be written, which is to be known before a long computation. Without a path
   /// there is no such output.
   void add(Output_kind kind, const std::optional<std::string>& path);
 
   /// Adds page and picture, as far as they are asked for.
-  void add_displays(const Display_options& options);
+  void add_displays(const Display_request& options);
 
   /// Forgets the file of that kind, if there is one, so that nothing is written.
   void remove(Output_kind kind);

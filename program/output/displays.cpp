@@ -5,6 +5,7 @@
 #include "output/statistics.h"
 #include "picture/draw_surface.h"
 #include "system/files.h"
+#include "system/front_end.h"
 #include "system/kernel.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/display/color_map.h>
@@ -116,7 +117,7 @@ Mappings read_mappings(const std::string& path) {
   try {
     return mappings_of_file(path);
   } catch (const Input_error& error) {
-    throw Input_error(std::string("--range-of: ") + error.what());
+    throw Input_error(option_text("range_of") + ": " + error.what());
   }
 }
 
@@ -128,14 +129,14 @@ Mappings shared_mappings(const std::string& path, const Vertex_attributes& attri
   auto mappings = read_mappings(path);
   const std::string shown = color.empty() ? first_shown(attributes) : color;
   if (find_column(attributes, shown) && !mappings.contains(shown))
-    throw Input_error("--range-of: '" + path + "' has no attribute '" + shown +
-                      "'; name one that it has, --color NAME");
+    throw Input_error(option_text("range_of") + ": '" + path + "' has no attribute '" + shown +
+                      "'; name one that it has, " + option_text("color", "NAME"));
   return mappings;
 }
 
 /// Writes the page, of a coarser mesh if there are too many triangles, which it says then.
 void write_page(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                Html_options& page) {
+                Display_options& page) {
   if (mesh.triangles.size() <= most_triangles_of_page) return write_HTML(stream, mesh, attributes, page);
   const Displayed_mesh shown = decimate(mesh, attributes, most_triangles_of_page);
   page.description.emplace_back("Shown here", std::to_string(shown.mesh.triangles.size()) +
@@ -157,40 +158,35 @@ std::string page_title(const std::string& path, const std::string& otherwise) {
   return path == "-" ? otherwise : std::filesystem::path(path).stem().string();
 }
 
-void check_display_outputs(const Display_options& options) {
+void check_display_outputs(const Display_request& options) {
   if (options.html) check_format(*options.html, File_format::HTML, "a page", ".html");
   if (options.range_of) read_mappings(*options.range_of); // an error is to come before the work
   if (!options.png) return;
 #ifndef EQUIAFFINE_WITH_VTK
-  throw Input_error("cannot write '" + *options.png + "': this equiaffine was built without VTK; use --html");
+  throw Input_error("cannot write '" + *options.png + "': this equiaffine was built without VTK; use " +
+                    by_front_end("--html", "a path with .html"));
 #endif
   if (options.png != "-" && file_format(*options.png) != File_format::PNG)
     throw Input_error("cannot write '" + *options.png + "': a picture is a PNG file; give it the extension .png");
 }
 
 void write_displays(Outputs& outputs, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                    const Display_options& options, const Surface_texts& texts,
+                    const Display_request& options, const Surface_texts& texts,
                     [[maybe_unused]] const std::vector<Polyline_3<Kernel>>& curves) {
-  const std::array<double, 3> up = options.up ? *options.up : natural_up(mesh.points);
-  Mappings mappings;
-  if (options.range_of) mappings = shared_mappings(*options.range_of, attributes, options.color);
+  Display_options shown = options;
+  if (options.guesses_up) shown.up = natural_up(mesh.points);
+  if (options.range_of) shown.mappings = shared_mappings(*options.range_of, attributes, options.color);
+  shown.label_suffix = texts.label_suffix;
   if (Output_file* const file = outputs.find(Output_kind::PAGE)) {
-    Html_options page;
+    Display_options page = shown;
     page.title = texts.title;
-    page.range = options.range;
-    page.color = attributes.columns.empty() && !attributes.status ? "plain" : options.color;
-    page.up = up;
-    page.scale = options.scale;
-    page.mappings = mappings;
-    page.label_suffix = texts.label_suffix;
     page.description = texts.description;
+    if (attributes.columns.empty() && !attributes.status) page.color = "plain";
     write_page(file->stream(), mesh, attributes, page);
   }
 #ifdef EQUIAFFINE_WITH_VTK
   if (Output_file* const file = outputs.find(Output_kind::PICTURE)) {
-    const Surface_view view = {options.color, up,       options.size,       options.range, options.arrows,
-                               options.scale, mappings, texts.label_suffix, texts.notes};
-    write_PNG(file->stream(), draw_surface(mesh, attributes, view, curves));
+    write_PNG(file->stream(), draw_surface(mesh, attributes, shown, texts.notes, curves));
   }
 #endif
 }

@@ -29,7 +29,7 @@ std::string page_title(const std::string& path, const std::string& otherwise);
 /// Throws `Input_error` if the page has an extension that is not that of a page, if the picture has another one than
 /// .png, if the colors of `range_of` cannot be read, or if a picture is asked for and this program was built without
 /// VTK. Each may be "-".
-void check_display_outputs(const Display_options& options);
+void check_display_outputs(const Display_request& options);
 
 /// The texts by which a page and a picture describe a surface.
 struct Surface_texts {
@@ -41,7 +41,7 @@ struct Surface_texts {
 
 /// Writes the page and the picture that are among the outputs, without committing. The curves are on the picture only.
 void write_displays(Outputs& outputs, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                    const Display_options& options, const Surface_texts& texts,
+                    const Display_request& options, const Surface_texts& texts,
                     const std::vector<Polyline_3<Kernel>>& curves = {});
 
 /// Scale, noise, and the parts of the vertices at which quantities are known, as rows of a description.

@@ -2,6 +2,7 @@
 #include "output/maps.h"
 
 #include "output/json_text.h"
+#include "system/front_end.h"
 #include <equiaffine/registration/internal/searches.h>
 
 #include <algorithm>
@@ -132,23 +133,26 @@ std::string ways(std::size_t number) { return std::to_string(number) + (number =
 std::string advice_text(Registration_advice advice) {
   switch (advice) {
   case Registration_advice::SIMILARITIES_OF_FRAMES:
-    return "--kind similarity, whose frames need fewer derivatives and exist on quadrics, too";
-  case Registration_advice::SIMILARITIES_OF_OTHER_SIZE: return "--kind similarity, which allows other sizes";
-  case Registration_advice::SIMILARITIES_OF_TRIANGLES: return "--kind similarity, which needs no curvature";
-  case Registration_advice::ALL_MAPS: return "--kind affine, which allows all maps";
-  case Registration_advice::RIGID_MAPS: return "--kind rigid, whose maps need no solid";
-  case Registration_advice::REFLECTIONS: return "the command without --no-reflection";
-  case Registration_advice::SAME_SCALE: return "the same --scale R on both sides";
-  case Registration_advice::LARGER_SAME_SCALE: return "a larger --scale, the same on both sides";
-  case Registration_advice::A_SCALE: return "--scale R for the fit";
-  case Registration_advice::LARGER_SCALE: return "a larger --scale";
+    return option_text("kind", "similarity") + ", whose frames need fewer derivatives and exist on quadrics, too";
+  case Registration_advice::SIMILARITIES_OF_OTHER_SIZE:
+    return option_text("kind", "similarity") + ", which allows other sizes";
+  case Registration_advice::SIMILARITIES_OF_TRIANGLES:
+    return option_text("kind", "similarity") + ", which needs no curvature";
+  case Registration_advice::ALL_MAPS: return option_text("kind", "affine") + ", which allows all maps";
+  case Registration_advice::RIGID_MAPS: return option_text("kind", "rigid") + ", whose maps need no solid";
+  case Registration_advice::REFLECTIONS:
+    return by_front_end("the command without --no-reflections", "reflections=True");
+  case Registration_advice::SAME_SCALE: return "the same " + option_text("scale", "R") + " on both sides";
+  case Registration_advice::LARGER_SAME_SCALE: return "a larger " + option_text("scale") + ", the same on both sides";
+  case Registration_advice::A_SCALE: return option_text("scale", "R") + " for the fit";
+  case Registration_advice::LARGER_SCALE: return "a larger " + option_text("scale");
   case Registration_advice::FIT_OF_MESH:
     return "--fit in place of --distance-to, since facets have no affine curvature";
-  case Registration_advice::SMOOTHING: return "--smoothing auto for the volume";
-  case Registration_advice::LARGER_TOLERANCE: return "a larger --tolerance";
+  case Registration_advice::SMOOTHING: return option_text("smoothing", "auto") + " for the volume";
+  case Registration_advice::LARGER_TOLERANCE: return "a larger " + option_text("tolerance");
   case Registration_advice::OTHER_TOLERANCE:
-    return "--tolerance PART for another distance to which maps may move points";
-  case Registration_advice::SMALLER_OVERLAP: return "a smaller --min-overlap";
+    return option_text("tolerance", "PART") + " for another distance to which maps may move points";
+  case Registration_advice::SMALLER_OVERLAP: return "a smaller " + option_text("min_overlap");
   case Registration_advice::MORE_IN_COMMON: break;
   }
   return "surfaces that have more in common";
@@ -264,7 +268,7 @@ std::string summary(const Registration_report& report) {
   if (registration.found() && registration.equally_good > 0)
     text << "at least " << registration.equally_good
          << (registration.equally_good == 1 ? " other map fits" : " other maps fit") << " as well"
-         << (report.has_all_maps ? "\n" : ": --all writes them\n");
+         << (report.has_all_maps ? "" : ": " + option_text("number_of_maps") + " writes them") << '\n';
   if (dimension > 0)
     text << "the source slides over itself" << within_text(registration.slippage.rms, 0) << " in " << ways(dimension)
          << axis_text(registration.slippage, registration.size)

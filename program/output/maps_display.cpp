@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "output/maps_display.h"
 
+#include "system/front_end.h"
 #include <equiaffine/registration/internal/searches.h>
 
 #include <Eigen/Core>
@@ -184,7 +185,7 @@ std::vector<Shown_surface> shown_surfaces(const Registration_report& report) {
           {"frame of the source", "dark violet"}};
 }
 
-bool shows_surfaces(const Display_options& options) { return options.color == "surface"; }
+bool shows_surfaces(const Display_request& options) { return options.color == "surface"; }
 
 void add_text(const std::string& text, std::vector<Surface_note>& notes) { notes.emplace_back().text = text; }
 
@@ -214,18 +215,19 @@ std::vector<Shown_surface> shown_surfaces(const Symmetries& symmetries) {
   return surfaces;
 }
 
-const std::string text_of_distances =
-    "those of the distance from the other surface; --color surface tells the two apart";
+std::string text_of_distances() {
+  return "those of the distance from the other surface; " + option_text("color", "surface") + " tells the two apart";
+}
 
 } // namespace
 
-Display_options display_of(const Registration_report& report, Display_options options) {
+Display_request display_of(const Registration_report& report, Display_request options) {
   if (options.color.empty() && !options.range) options.color = "surface";
   if (shows_surfaces(options) && !options.range) options.range = {0., double(shown_surfaces(report).size() - 1)};
   return options;
 }
 
-Description description_of(const Registration_report& report, const Display_options& options) {
+Description description_of(const Registration_report& report, const Display_request& options) {
   Description description = {{"Source", report.source}, {"Target", report.target}};
   if (!report.registration.found()) {
     description.emplace_back("Map", reason_for_none(report));
@@ -242,11 +244,11 @@ Description description_of(const Registration_report& report, const Display_opti
     description.emplace_back("log10 of false alarms", number_text(best.log10_false_alarms, 3));
   }
   description.emplace_back("surface", numbers_text(shown_surfaces(report), shows_surfaces(options)));
-  if (!shows_surfaces(options)) description.emplace_back("Colors", text_of_distances);
+  if (!shows_surfaces(options)) description.emplace_back("Colors", text_of_distances());
   return description;
 }
 
-std::vector<Surface_note> notes_of(const Registration_report& report, const Display_options& options) {
+std::vector<Surface_note> notes_of(const Registration_report& report, const Display_request& options) {
   std::vector<Surface_note> notes;
   if (!report.registration.found()) {
     add_text(reason_for_none(report), notes);
@@ -258,21 +260,21 @@ std::vector<Surface_note> notes_of(const Registration_report& report, const Disp
     add_text("rms distance " + rms_text(report.registration), notes);
   }
   if (!shows_surfaces(options)) {
-    add_text("colors are " + text_of_distances, notes);
+    add_text("colors are " + text_of_distances(), notes);
     return notes;
   }
   add_surfaces(shown_surfaces(report), notes);
   return notes;
 }
 
-Display_options display_of(const Symmetries_report& report, Display_options options) {
+Display_request display_of(const Symmetries_report& report, Display_request options) {
   const auto surfaces = shown_surfaces(report.symmetries);
   if (options.color.empty() && !options.range && surfaces.size() > 1) options.color = "surface";
   if (shows_surfaces(options) && !options.range) options.range = {0., double(surfaces.size() - 1)};
   return options;
 }
 
-Description description_of(const Symmetries_report& report, const Display_options& options) {
+Description description_of(const Symmetries_report& report, const Display_request& options) {
   const Symmetries& symmetries = report.symmetries;
   const auto order = symmetries.order();
   Description description = {{"Symmetries of", report.source}};
@@ -289,7 +291,7 @@ Description description_of(const Symmetries_report& report, const Display_option
   return description;
 }
 
-std::vector<Surface_note> notes_of(const Symmetries_report& report, const Display_options& options) {
+std::vector<Surface_note> notes_of(const Symmetries_report& report, const Display_request& options) {
   std::vector<Surface_note> notes;
   for (const auto& [name, text] : description_of(report, options))
     if (name != "surface") add_text(name + ": " + text, notes);

@@ -33,16 +33,16 @@ Indexed_triangle_mesh_3<Kernel> mesh_of_axes(const std::vector<Kernel::Line_3>& 
                                              const Indexed_triangle_mesh_3<Kernel>& surface, double radius);
 
 /// The options with which the two surfaces are shown: by the color of each unless another one or a range is given.
-Display_options display_of(const Registration_report& report, Display_options options);
+Display_request display_of(const Registration_report& report, Display_request options);
 
 /// The texts for the page and the picture that are shown with the `options`.
-Description description_of(const Registration_report& report, const Display_options& options);
-std::vector<Surface_note> notes_of(const Registration_report& report, const Display_options& options);
+Description description_of(const Registration_report& report, const Display_request& options);
+std::vector<Surface_note> notes_of(const Registration_report& report, const Display_request& options);
 
 /// The same for symmetries, whose planes and axes stand beside the surface.
-Display_options display_of(const Symmetries_report& report, Display_options options);
-Description description_of(const Symmetries_report& report, const Display_options& options);
-std::vector<Surface_note> notes_of(const Symmetries_report& report, const Display_options& options);
+Display_request display_of(const Symmetries_report& report, Display_request options);
+Description description_of(const Symmetries_report& report, const Display_request& options);
+std::vector<Surface_note> notes_of(const Symmetries_report& report, const Display_request& options);
 
 } // namespace equiaffine
 

@@ -37,11 +37,11 @@ Light light_of(const CGAL::IO::Color& color) {
 }
 
 Surface_paint::Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                             const Surface_view& view) {
-  if (const auto* column = find_column(attributes, view.color.empty() ? first_shown(attributes) : view.color)) {
+                             const Display_options& options, bool has_notes) {
+  if (const auto* column = find_column(attributes, options.color.empty() ? first_shown(attributes) : options.color)) {
     const Parabolic_parts parabolic(mesh.triangles, attributes);
     numbers_ = parabolic.filled(column->values);
-    use(*column, Numbers_of_mesh(mesh, attributes), view);
+    use(*column, Numbers_of_mesh(mesh, attributes), options);
     const auto* errors = find_errors(attributes, column->name);
     if (errors != nullptr && legend_) {
       const std::vector<double> filled = parabolic.filled(errors->values);
@@ -52,12 +52,11 @@ Surface_paint::Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
     if (curvatures != nullptr && is_undefined_at_parabolic_points(column->name))
       sides_ = parabolic.sides(curvatures->values);
     find_codes(attributes);
-  } else if (attributes.status && view.color != "plain") {
+  } else if (attributes.status && options.color != "plain") {
     shows_status_ = true;
     for (const Point_status status : *attributes.status) codes_.push_back(static_cast<std::uint8_t>(status));
   }
-  // The notes of a fit say what is known of every quantity.
-  if (view.notes.empty())
+  if (!has_notes)
     for (const std::string& sentence : sentences_of_doubt(attributes)) notes_.push_back({doubt_color(), sentence});
   find_notes(mesh.triangles);
 }
@@ -141,17 +140,17 @@ void Surface_paint::find_notes(std::span<const Triangle> triangles) {
 }
 
 void Surface_paint::use(const Vertex_attributes::Column& column, const Numbers_of_mesh& numbers_of,
-                        const Surface_view& view) {
+                        const Display_options& options) {
   if (std::none_of(numbers_.begin(), numbers_.end(), [](double number) { return std::isfinite(number); })) return;
-  const auto given = view.mappings.find(column.name);
-  Color_mapping mapping = given != view.mappings.end() ? given->second : numbers_of(column).mapping();
-  if (view.range) {
-    mapping.range = given_range((*view.range)[0], (*view.range)[1]);
+  const auto given = options.mappings.find(column.name);
+  Color_mapping mapping = given != options.mappings.end() ? given->second : numbers_of(column).mapping();
+  if (options.range) {
+    mapping.range = given_range((*options.range)[0], (*options.range)[1]);
     mapping.scale = Color_scale::LINEAR;
   }
-  if (view.scale) mapping.scale = *view.scale;
+  if (options.colors) mapping.scale = *options.colors;
   const std::string scale = mapping.scale == Color_scale::LINEAR ? "" : ", " + std::string(to_string(mapping.scale));
-  legend_ = {label_of(column.name, view.label_suffix) + scale, mapping};
+  legend_ = {label_of(column.name, options.label_suffix) + scale, mapping};
   for (const double number : numbers_) {
     const double t = std::isfinite(number) ? mapping.position(number) : 0;
     levels_.push_back(mapping.range.is_diverging ? (t + 1) / 2 : t);

@@ -4,7 +4,7 @@
 
 #include "picture/Canvas.h"
 #include "system/kernel.h"
-#include <equiaffine/display/color_map.h>
+#include <equiaffine/display/Display_options.h>
 #include <equiaffine/display/internal/Column_numbers.h>
 #include <equiaffine/geometry/Point_status.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
@@ -12,7 +12,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,19 +23,6 @@ namespace equiaffine {
 struct Surface_note {
   std::optional<double> number;
   std::string text;
-};
-
-/// Options that say how a surface is shown.
-struct Surface_view {
-  std::string color;                             ///< a column, `status`, `plain`, or empty for the page's choice
-  std::array<double, 3> up = {0, 0, 1};          ///< the direction that points up
-  std::array<std::size_t, 2> size;               ///< in pixels
-  std::optional<std::array<double, 2>> range;    ///< the numbers of the end colors, instead of quantiles
-  std::string arrows;                            ///< a vector among the columns, or empty
-  std::optional<Color_scale> scale;              ///< instead of the one that suits the numbers
-  std::map<std::string, Color_mapping> mappings; ///< of columns whose colors do not depend on their own numbers
-  std::string label_suffix = {};                 ///< what follows the labels of the library's quantities
-  std::vector<Surface_note> notes = {};          ///< below the surface, from the top to the bottom
 };
 
 /// The numbers that the colors of a picture stand for.
@@ -56,8 +42,9 @@ Light light_of(const CGAL::IO::Color& color);
 /// The color of a surface at its vertices and between them.
 class Surface_paint {
 public:
+  /// Adds notes on unknown numbers, unless `has_notes`: the notes of a fit cover every quantity.
   Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                const Surface_view& view);
+                const Display_options& options, bool has_notes = false);
 
   /// Is set if there is a vertex whose color shows a number.
   const std::optional<Color_legend>& legend() const { return legend_; }
@@ -90,7 +77,7 @@ private:
 
   static constexpr std::uint8_t no_number = number_of_point_statuses;
 
-  void use(const Vertex_attributes::Column& column, const Numbers_of_mesh& numbers_of, const Surface_view& view);
+  void use(const Vertex_attributes::Column& column, const Numbers_of_mesh& numbers_of, const Display_options& options);
   void find_codes(const Vertex_attributes& attributes);
   void find_notes(std::span<const Triangle> triangles);
   bool can_have_line(const Triangle& triangle) const;

@@ -174,11 +174,12 @@ std::vector<std::string> lines_of(std::string_view text, std::size_t width) {
   return lines;
 }
 
-/// The notes of the view, then those of the paint, which are left out first where there is no room.
-std::vector<Color_note> notes_from_bottom(const Surface_view& view, const Surface_paint& paint) {
+/// The given notes, then those of the paint, which are left out first where there is no room.
+std::vector<Color_note> notes_from_bottom(std::span<const Surface_note> given, std::size_t width,
+                                          const Surface_paint& paint) {
   std::vector<Color_note> notes;
-  for (auto note = view.notes.rbegin(); note != view.notes.rend(); ++note) {
-    const std::vector<std::string> lines = lines_of(note->text, view.size[0]);
+  for (auto note = given.rbegin(); note != given.rend(); ++note) {
+    const std::vector<std::string> lines = lines_of(note->text, width);
     for (auto line = lines.rbegin(); line != lines.rend(); ++line) notes.push_back({std::nullopt, *line});
     if (note->number && paint.legend()) notes.back().color = paint.legend()->mapping.color(*note->number);
   }
@@ -201,16 +202,17 @@ std::optional<std::array<const std::vector<double>*, 3>> vector_columns(const Ve
 }
 
 Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                             const Surface_view& view, std::span<const Polyline_3<Kernel>> curves) {
-  const auto [width, height] = view.size;
-  const Surface_paint paint(mesh, attributes, view);
-  std::vector<Color_note> notes = notes_from_bottom(view, paint);
+                             const Display_options& options, std::span<const Surface_note> given_notes,
+                             std::span<const Polyline_3<Kernel>> curves) {
+  const auto [width, height] = options.size;
+  const Surface_paint paint(mesh, attributes, options, !given_notes.empty());
+  std::vector<Color_note> notes = notes_from_bottom(given_notes, width, paint);
   const std::size_t below = paint.legend() ? legend_height : notes.empty() ? 0 : note_margin;
   notes.resize(std::min(notes.size(), (height - height / 4 - below) / note_height));
-  const Camera camera(mesh.points, view.up, width, height - below - note_height * notes.size(), !view.arrows.empty());
+  const Camera camera(mesh.points, options.up, width, height - below - note_height * notes.size(), !options.arrows.empty());
   const Seen_surface surface(camera, mesh, vertex_normals(mesh, attributes));
   const Line_drawing parabolic_lines = zero_strokes(camera, mesh, paint.sides()), drawn = curve_strokes(camera, curves);
-  const auto columns = vector_columns(attributes, view.arrows);
+  const auto columns = vector_columns(attributes, options.arrows);
   const Line_drawing arrows = columns ? arrow_strokes(camera, mesh.points, *columns) : Line_drawing();
   Picture picture{width, height, {}};
   picture.rgb.reserve(3 * width * height);

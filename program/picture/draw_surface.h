@@ -33,9 +33,10 @@ std::optional<std::array<const std::vector<double>*, 3>> vector_columns(const Ve
                                                                         const std::string& name);
 
 /// Draws the surface as the page of write_HTML shows it first: the same view, colors and light. Curves are black
-/// lines.
+/// lines. The notes stand below the surface, from the top to the bottom.
 Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                             const Surface_view& view, std::span<const Polyline_3<Kernel>> curves = {});
+                             const Display_options& options, std::span<const Surface_note> notes = {},
+                             std::span<const Polyline_3<Kernel>> curves = {});
 
 /// Guesses which axis of a scan points up: y, as in most files of scans, unless the shape stands along z. It does if the
 /// convex hull of its lowest points along z covers a tenth of its box or more, and twice the part that they cover along y.

@@ -5,13 +5,12 @@
 #include "request/source_options.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/delaunay/Delaunay_options.h>
-#include <equiaffine/display/color_map.h>
+#include <equiaffine/display/Display_options.h>
 #include <equiaffine/function/Level_set_traits_3.h>
 #include <equiaffine/geometry/reference_estimators.h>
 #include <equiaffine/marching_cubes/Marching_cubes_options.h>
 #include <equiaffine/registration/Registration_options.h>
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -19,16 +18,11 @@
 
 namespace equiaffine {
 
-/// The page and the picture that are asked for, and their first view.
-struct Display_options {
+/// The page and the picture that are asked for, and what they show.
+struct Display_request : Display_options {
   std::optional<std::string> html, png;
-  std::string color;                             ///< an attribute, `status`, `plain`, or empty
-  std::optional<std::array<double, 3>> up;       ///< guessed from the shape if there is none
-  std::optional<std::array<double, 2>> range;    ///< the numbers that have the end colors
-  std::optional<std::string> range_of;           ///< a page or mesh whose colors numbers get
-  std::optional<Color_scale> scale;              ///< of colors, if it is not to be the one that suits the numbers
-  std::array<std::size_t, 2> size = {1000, 800}; ///< of the picture, in pixels
-  std::string arrows;                            ///< a vector among the attributes, or empty; for the picture
+  std::optional<std::string> range_of; ///< a page or mesh whose colors numbers get
+  bool guesses_up = true;              ///< whether `up` is guessed from the shape
 
   bool shows_something() const { return html || png; }
 };
@@ -62,8 +56,8 @@ struct Request {
   bool lists_maps = false; ///< whether `register` writes all maps that it finds, and not the best one alone
   bool samples_are_float = false;
   std::string output;
-  std::optional<std::string> moved, curves, stats;
-  Display_options display;
+  std::optional<std::string> moved, parabolic_curves, stats;
+  Display_request display;
 };
 
 } // namespace equiaffine

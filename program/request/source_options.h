@@ -37,7 +37,7 @@ struct Raw_layout {
 struct Volume_selection {
   std::optional<std::size_t> component = {},
                              time = {}; ///< the number per node and the volume of a 4D file, counted from 1
-  bool allows_outside = false;          ///< whether a header may name files outside of its folder
+  bool allow_outside = false;           ///< whether a header may name files outside of its folder
 };
 
 enum class Source_kind { FUNCTION, VOLUME, DISTANCE, FIT };

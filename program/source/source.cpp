@@ -5,6 +5,7 @@
 #include "source/source_function.h"
 #include "source/warnings.h"
 #include "system/files.h"
+#include "system/front_end.h"
 #include "system/kernel.h"
 #include "system/memory_limit.h"
 #include "volume/volume_io.h"
@@ -13,10 +14,10 @@
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/function/sample_on_lattice.h>
 #include <equiaffine/io/read_points.h>
+#include <equiaffine/surface/internal/grid_of_data.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
 #include <equiaffine/volume/Volume_3.h>
-#include <equiaffine/surface/internal/grid_of_data.h>
 #include <equiaffine/volume/signed_distance_volume.h>
 
 #include <CGAL/tags.h>
@@ -38,7 +39,7 @@ namespace {
 
 using Size = Lattice_3<Kernel>::Size;
 
-/// Throws unless every name that --set gives occurs in the formula. The formula itself must have no errors.
+/// Throws unless every name of the constants occurs in the formula. The formula itself must have no errors.
 void check_constants_are_used(const Source_options& options) {
   for (const auto& [name, value] : options.constants) {
     auto others = options.constants;
@@ -48,7 +49,7 @@ void check_constants_are_used(const Source_options& options) {
     } catch (const Input_error&) {
       continue; // the formula needs this name
     }
-    throw Input_error("--set " + name + ": the formula " + options.text + " has no '" + name +
+    throw Input_error(option_text("constants " + name) + ": the formula " + options.text + " has no '" + name +
                       "'; correct the name or leave it out");
   }
 }
@@ -68,7 +69,9 @@ Expression_3 parse_formula(const Source_options& options) {
   try {
     return Expression_3(options.text, options.constants);
   } catch (const Unknown_name_error& error) {
-    throw Input_error(std::string(error.what()) + " (--set " + error.name() + "=VALUE)", error.excerpt());
+    const std::string constant =
+        by_front_end("--constants " + error.name() + "=VALUE", "constants={\"" + error.name() + "\": VALUE}");
+    throw Input_error(std::string(error.what()) + " (" + constant + ")", error.excerpt());
   }
 }
 
@@ -96,9 +99,8 @@ Fit_traits make_fit(const Source_options& options, const Point_table_3<Kernel>& 
   if (fit.bbox() == CGAL::Bbox_3() && !options.is_registered)
     throw Input_error("cannot make " + describe_as(options, options.text) +
                       ": no point has enough others around it for a polynomial; give more points" +
-                      (options.fit.scale    ? ", a larger --scale or a smaller --degree"
-                       : options.fit.degree ? " or a smaller --degree"
-                                            : ""));
+                      (options.fit.scale ? ", a larger " + option_text("scale") : "") +
+                      (options.fit.scale || options.fit.degree ? " or a smaller " + option_text("degree") : ""));
   warn_of_opposed_normals(table, progress);
   return placed_fit(fit, options, table.mesh.points, radius);
 }
@@ -138,7 +140,7 @@ void check_values(const Volume_view_3<Kernel>& volume, const Source_options& opt
       missing += std::count_if(row.begin(), row.end(), [](double x) { return !std::isfinite(x); });
     }
   if (missing > 0)
-    throw Input_error("--spline-scheme: interpolation needs a value at every node, and " +
+    throw Input_error(option_text("spline_scheme") + ": interpolation needs a value at every node, and " +
                       describe_as(options, options.text) + " has " + std::to_string(missing) +
                       " nodes without one; use quasi-interpolation");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "source/source_function.h"
 
+#include "system/front_end.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/Point_tree.h>
 #include <equiaffine/base/internal/parallel_for.h>
@@ -72,7 +73,7 @@ auto fit_with_parameters(const Annotated_mesh_3<Kernel>& mesh, const Fit& fit) t
              with_normals);
 } catch (const Input_error& error) {
   if (error.field() != "scale") throw; // the command line has checked the other options
-  throw Input_error("--scale: " + error.sentence());
+  throw Input_error(option_text("scale") + ": " + error.sentence());
 }
 
 } // namespace

@@ -78,7 +78,7 @@ Fit_traits blend_vertices(const Annotated_mesh_3<Kernel>& mesh, const Fit_option
 using Formula_traits = Analytic_function_traits_3<Kernel, Expression_3>;
 using Spline_traits = Sampled_function_traits_3<Kernel>;
 
-/// A source under the map of --transform, which is the identity if there is none.
+/// A source under the map of its `transformation`, which is the identity if there is none.
 using Formula_function = Transformed_function_traits_3<Formula_traits>;
 using Spline_function = Transformed_function_traits_3<Spline_traits>;
 using Fit_function = Transformed_function_traits_3<Fit_traits>;

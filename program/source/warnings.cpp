@@ -2,6 +2,7 @@
 #include "source/warnings.h"
 
 #include "source/source_function.h"
+#include "system/front_end.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +23,10 @@ void warn_of_outside(const Source_options& options, const Source& source, std::s
   text << outside << " of " << all << ' ' << points << " are outside and have no attributes: ";
   if (nodes <= std::size_t(degree))
     text << "a spline of degree " << degree << " needs " << degree + 1 << " nodes along each axis, and there are "
-         << nodes << " along one; " << (nodes > least_degree ? "use --spline-degree 5 or" : "give") << " more nodes";
+         << nodes << " along one; "
+         << (nodes > least_degree ? by_front_end("use --spline-degree 5 or", "give") : "give") << " more nodes";
   else if (options.narrow_band)
-    text << "distances are known in the band of --narrow-band " << *options.narrow_band
+    text << "distances are known in the band of " << option_text("narrow_band") << ' ' << *options.narrow_band
          << " only; give a larger one or leave it out";
   else if (options.kind == Source_kind::VOLUME)
     text << "nothing is known outside of the volume and within " << degree << " voxels of a node without a value"
@@ -36,8 +38,8 @@ void warn_of_outside(const Source_options& options, const Source& source, std::s
 void warn_of_steps(const Spline_statistics& spline, Progress& progress) {
   if (spline.smoothing > 0 || !spline.distinct_values) return;
   progress.warn("the samples have " + std::to_string(*spline.distinct_values) +
-                " distinct values only, and curvatures are those of the steps between them; smooth the samples, "
-                "--smoothing auto");
+                " distinct values only, and curvatures are those of the steps between them; smooth the samples, " +
+                option_text("smoothing", "auto"));
 }
 
 bool has_affine_curvatures(const Attribute_selection& attributes, const std::vector<std::string>& estimates) {
@@ -52,8 +54,8 @@ namespace {
 
 /// What follows "20 % of the vertices".
 std::string sentence_of_doubt(Fit_doubt reason, const Fit_statistics& fit, const Fit_options& options, bool are_data) {
-  const std::string larger_scale = options.scale ? ", or a larger --scale" : "";
-  const std::string without_none = options.scale == 0. ? "leave out --scale none, or " : "";
+  const std::string larger_scale = options.scale ? ", or a larger " + option_text("scale") : "";
+  const std::string without_none = options.scale == 0. ? "leave out " + option_text("scale", "none") + ", or " : "";
   const std::string error = "have an estimated error of the affine Gaussian curvature of more than 50 %, most of it ";
   if (reason == Fit_doubt::WITHOUT_FIT)
     return are_data
@@ -62,13 +64,16 @@ std::string sentence_of_doubt(Fit_doubt reason, const Fit_statistics& fit, const
   if (reason == Fit_doubt::NOISE)
     return error + (fit.scale
                         ? "from noise and the distance of the points, too large for fourth derivatives at that scale; "
-                          "give a larger --scale or more points, or use the affine area density or the affine normal, "
-                          "which need derivatives of order 2 and 3"
+                          "give a larger " +
+                              option_text("scale") +
+                              " or more points, or use the affine area density or the affine normal, "
+                              "which need derivatives of order 2 and 3"
                         : "from noise, which is too large for fourth derivatives; " + without_none +
                               "give points with less noise");
   return fit.scale
              ? "have no curvature at that scale, since fewer points are within it than a polynomial needs; give a "
-               "larger --scale or more points"
+               "larger " +
+                   option_text("scale") + " or more points"
              : error +
                    "since fits disagree: the surface has detail, creases or contradictions between too few "
                    "points; " +
@@ -92,7 +97,8 @@ void warn_of_close_sheets(const Close_sheets& sheets, Progress& progress) {
        << " points have another sheet of the surface nearer than the steps of the grid, which may make "
        << "holes and fragments there: ";
   if (sheets.resolution <= finest)
-    text << "sheets are " << sheets.distance << " apart; give --resolution " << sheets.resolution;
+    text << "sheets are " << sheets.distance << " apart; give "
+         << option_text("resolution", std::to_string(sheets.resolution));
   else
     text << "sheets are " << sheets.distance
          << " apart, for which no grid is fine enough; remove one of them, or what both have twice";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "system/file_memory.h"
 
+#include "system/front_end.h"
 #include <equiaffine/base/Input_error.h>
 
 #include <algorithm>
@@ -121,8 +122,8 @@ struct Scratch {
 std::atomic<Scratch*> scratch = nullptr; ///< is never destroyed, since memory is freed until the process ends
 
 [[noreturn]] void fail_to_open(const fs::path& folder, const std::string& reason, const std::string& advice) {
-  throw Input_error("--memory: what does not fit is kept in a file in the folder '" + folder.string() + "', " + reason +
-                    "; " + advice);
+  throw Input_error(option_text("memory") + ": what does not fit is kept in a file in the folder '" + folder.string() +
+                    "', " + reason + "; " + advice);
 }
 
 int open_nameless_file_in(const fs::path& folder) {
@@ -206,7 +207,7 @@ void open_scratch_memory(const fs::path& folder, std::size_t spare) {
   void* const first = ::mmap(nullptr, most_addresses, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (first == MAP_FAILED) {
     ::close(file);
-    throw Input_error("--memory: the limit of the address space is too low; raise it with ulimit -v");
+    throw Input_error(option_text("memory") + ": the limit of the address space is too low; raise it with ulimit -v");
   }
   scratch = new Scratch{folder, spare, static_cast<std::byte*>(first), file, 0};
 }
@@ -228,7 +229,7 @@ std::string lack_of_room_for_scratch_memory() {
   if (!s) return {};
   const std::lock_guard guard(s->mutex);
   if (s->error == 0) return {};
-  return "--memory: the folder '" + s->folder.string() + "' has no room for what does not fit (" +
+  return option_text("memory") + ": the folder '" + s->folder.string() + "' has no room for what does not fit (" +
          std::generic_category().message(s->error) + "), or files may not be that large (ulimit -f); make some";
 }
 

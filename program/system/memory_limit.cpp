@@ -3,6 +3,7 @@
 
 #include "system/file_memory.h"
 #include "system/files.h"
+#include "system/front_end.h"
 #include <equiaffine/base/Input_error.h>
 
 #include <algorithm>
@@ -51,13 +52,13 @@ void check_memory(double needed, Memory_use use, const std::string& reason, cons
   const std::string need = reason + " need about " + gigabytes(needed) + " of memory for " + purpose + ", and ";
   if (needed > all) throw Input_error(need + "this computer has " + gigabytes(all) + "; " + advice);
   throw Input_error(need + "that is over half of the " + gigabytes(all) + " of this computer; " + advice +
-                    ", or give --yes to use them all the same");
+                    by_front_end(", or give --yes to use them all the same", ""));
 }
 
 void check_memory(double needed, Memory_use use, const std::array<std::size_t, 3>& n, const std::string& purpose) {
   check_memory(needed, use,
-               "--resolution: " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " + std::to_string(n[2]) +
-                   " nodes",
+               option_text("resolution") + ": " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
+                   std::to_string(n[2]) + " nodes",
                purpose, "use a smaller one");
 }
 
@@ -93,7 +94,8 @@ void check_memory_of_delaunay_surface(double diagonal, double radius, double dis
   const double diameter = diagonal / std::sqrt(3.0), area = std::numbers::pi * diameter * diameter;
   const double squared_radius = std::min(radius * radius, distance * diameter);
   std::ostringstream reason;
-  reason << "--radius and --distance: triangles within " << radius << " and " << distance;
+  reason << option_text("radius") << " and " << option_text("distance") << ": triangles within " << radius << " and "
+         << distance;
   check_memory(part_of_sphere * bytes_per_vertex * vertices_per_square * area / squared_radius, use, reason.str(),
                "a ten-thousandth of the sphere in the box", "use larger ones");
 }
@@ -158,7 +160,8 @@ std::string in_mebibytes(std::size_t bytes) { return std::to_string((bytes + meb
 /// Ends the process as an error of the user does.
 [[noreturn]] void end_for_lack_of_memory(std::size_t used) {
   const std::string end_of_progress = ::isatty(STDERR_FILENO) ? "\n" : "";
-  const std::string report = end_of_progress + "equiaffine: error: --memory: more than " + in_mebibytes(limit) +
+  const std::string report = end_of_progress + "equiaffine: error: " + option_text("memory") + ": more than " +
+                             in_mebibytes(limit) +
                              " are needed at once, since not everything can be kept in a file; give more, such as " +
                              in_mebibytes(2 * used) + ", or leave it out\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, report.data(), report.size());
@@ -192,11 +195,14 @@ void watch(std::size_t bytes, bool may_end) {
 void limit_resident_memory(std::size_t bytes, const std::filesystem::path& folder) {
   begin_to_look();
   const std::size_t used = resident_memory();
-  if (used == 0) throw Input_error("--memory: this system does not tell how much memory a process has; leave it out");
+  if (used == 0)
+    throw Input_error(option_text("memory") +
+                      ": this system does not tell how much memory a process has; leave it out");
   const std::size_t least = (used / mebibyte + 128) / 10 * 10 * mebibyte;
   if (bytes < least)
-    throw Input_error("--memory: " + in_mebibytes(bytes) + " are too few, since the program itself takes " +
-                      in_mebibytes(used) + "; give at least " + in_mebibytes(least));
+    throw Input_error(option_text("memory") + ": " + in_mebibytes(bytes) +
+                      " are too few, since the program itself takes " + in_mebibytes(used) + "; give at least " +
+                      in_mebibytes(least));
   open_scratch_memory(folder, bytes / 8);
   limit = bytes;
   std::thread([bytes] { watch(bytes, true); }).detach();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How much memory there is, what is refused because it needs more, and the limit of --memory.
+// How much memory there is, what is refused because it needs more, and the limit that users set.
 #ifndef EQUIAFFINE_PROGRAM_SYSTEM_MEMORY_LIMIT_H
 #define EQUIAFFINE_PROGRAM_SYSTEM_MEMORY_LIMIT_H
 

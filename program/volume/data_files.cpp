@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/data_files.h"
 
+#include "system/front_end.h"
 #include "volume/Nifti_header.h"
 #include "volume/Shared_volume.h"
 #include "volume/header_text.h"
@@ -148,7 +149,7 @@ void check_data_files(const std::string& path, Volume_format format, bool allows
   for (const std::string& name : files.names) {
     if (!allows_outside && leads_out_of(folder, name))
       fail_to_read_volume(path, "its header names the file '" + printable(name) + "' outside of its folder",
-                          "put it beside the header, or add --allow-outside if that is right");
+                          "put it beside the header" + by_front_end(", or add --allow-outside if that is right", ""));
     if (!fs::exists(folder / name, error))
       fail_to_read_volume(path, "the file with its data, '" + printable(name) + "', is missing",
                           "put it beside the header");

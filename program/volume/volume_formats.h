@@ -60,11 +60,11 @@ void check_vti_header(const std::string& path);
 /// Throws `Input_error` for a file whose samples are no numbers that this program knows.
 [[noreturn]] void fail_to_read_volume_type(const std::string& path);
 
-/// The position, from 0, of what `--component` chooses among so many numbers per node. Throws `Input_error` if there are
+/// The position, from 0, of what `component` chooses among so many numbers per node. Throws `Input_error` if there are
 /// several and none is chosen, or not as many.
 std::size_t chosen_component(const std::string& path, const Volume_selection& selection, std::size_t count);
 
-/// The same for `--time` and the volumes of a 4D file.
+/// The same for `time` and the volumes of a 4D file.
 std::size_t chosen_time(const std::string& path, const Volume_selection& selection, std::size_t count);
 
 /// Allows a child process the memory that a reader may use for this many nodes, which a header has to say before the

@@ -2,6 +2,7 @@
 #include "volume/volume_io.h"
 
 #include "system/file_memory.h"
+#include "system/front_end.h"
 #include "system/memory_limit.h"
 #include "system/process.h"
 #include "volume/Shared_volume.h"
@@ -141,19 +142,21 @@ std::size_t chosen(const std::string& path, const std::string& option, std::opti
                    std::size_t count, const std::string& text) {
   if (!number && count == 1) return 0;
   if (number && *number <= count) return *number - 1;
-  fail_to_read_volume(path, "it has " + std::to_string(count) + ' ' + text,
-                      count == 1 ? "leave out " + option
-                                 : "choose one by " + option + " N from 1 to " + std::to_string(count));
+  fail_to_read_volume(
+      path, "it has " + std::to_string(count) + ' ' + text,
+      count == 1 ? "leave out " + option_text(option)
+                 : by_front_end("choose one by " + option_text(option, "N") + " from 1 to " + std::to_string(count),
+                                "give a file with one"));
 }
 
 } // namespace
 
 std::size_t chosen_component(const std::string& path, const Volume_selection& selection, std::size_t count) {
-  return chosen(path, "--component", selection.component, count, count == 1 ? "number per node" : "numbers per node");
+  return chosen(path, "component", selection.component, count, count == 1 ? "number per node" : "numbers per node");
 }
 
 std::size_t chosen_time(const std::string& path, const Volume_selection& selection, std::size_t count) {
-  return chosen(path, "--time", selection.time, count, count == 1 ? "volume" : "volumes, one after the other");
+  return chosen(path, "time", selection.time, count, count == 1 ? "volume" : "volumes, one after the other");
 }
 
 void admit_nodes(const std::string& path, const Lattice_3<Kernel>::Size& size, std::size_t bytes_of_sample) {
@@ -313,7 +316,7 @@ Volume_view_3<Kernel> read_raw_volume(const std::string& path, const Raw_layout&
                         "it has " + std::to_string(size) + " bytes, and " + std::to_string(layout.dims[0]) + " x " +
                             std::to_string(layout.dims[1]) + " x " + std::to_string(layout.dims[2]) + " samples of " +
                             std::string(raw_types[layout.type]) + " have " + std::to_string(std::uint64_t(expected)),
-                        "correct --dims or --type");
+                        "correct " + option_text("dims") + " or " + option_text("type"));
   std::shared_ptr<const Mapped_file> file;
   try {
     file = std::make_shared<const Mapped_file>(path);

@@ -107,7 +107,7 @@ Lattice_3<Kernel> lattice_of(const std::string& path, const itk::ImageIOBase& io
 void read_itk_volume(const std::string& path, Volume_format format, Samples_in where, const Volume_selection& selection,
                      Shared_volume& volume) {
   if (format == Volume_format::META) check_meta_header(path);
-  check_data_files(path, format, selection.allows_outside);
+  check_data_files(path, format, selection.allow_outside);
   const Captured_standard_error standard_error;
   const itk::ImageIOBase::Pointer io = make_image_io(format);
   io->SetFileName(path);

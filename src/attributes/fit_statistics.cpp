@@ -53,6 +53,7 @@ bool is_noise(const Structure& s) {
 
 Vertex_attributes::Column Estimate_attribute::column(Structures structures) const {
   Vertex_attributes::Column result = {name, {}};
+  result.values.reserve(structures.size());
   for (const auto& s : structures)
     result.values.push_back(row->error.get(kind == Estimate_kind::ERROR   ? s.error
                                            : kind == Estimate_kind::NOISE ? s.noise
@@ -80,13 +81,13 @@ const std::vector<Estimate_attribute>& estimate_attributes() {
 Vertex_attributes attributes_of_fit(Structures structures, const Attribute_selection& selection,
                                     std::span<const double> areas) {
   Vertex_attributes result;
-  for (const Attribute& attribute : selection.columns) {
-    auto& values = result.columns.emplace_back(Vertex_attributes::Column{std::string(attribute.name), {}}).values;
-    for (std::size_t i = 0; i < structures.size(); ++i) {
-      const auto& structure = structures[i].structure;
-      values.push_back(areas.empty() ? attribute.get(structure)
-                                     : attribute.get(Attribute_sample<double>(structure, areas[i])));
-    }
+  for (const Attribute& attribute : selection.columns)
+    result.columns.push_back({std::string(attribute.name), std::vector<double>(structures.size())});
+  for (std::size_t i = 0; i < structures.size(); ++i) {
+    Attribute_sample<double> sample(structures[i].structure);
+    if (!areas.empty()) sample.vertex_area = areas[i];
+    for (std::size_t c = 0; c < selection.columns.size(); ++c)
+      result.columns[c].values[i] = selection.columns[c].get(sample);
   }
   if (!selection.has_status) return result;
   result.status.emplace();

@@ -112,7 +112,7 @@ void write_spots(std::ostream& json, const std::vector<double>& numbers, const P
 }
 
 /// The names of the columns, what the library knows about the quantities among them, and what their colors mean.
-void write_column_facts(std::ostream& json, const Vertex_attributes& attributes, const Html_options& options,
+void write_column_facts(std::ostream& json, const Vertex_attributes& attributes, const Display_options& options,
                         const Numbers_of_mesh& numbers_of, const Parabolic_parts& parabolic) {
   const char* separator = "";
   for (const auto& column : attributes.columns) {
@@ -159,7 +159,7 @@ void write_status_facts(std::ostream& json) {
 
 } // namespace
 
-std::string page_facts(const Numbers_of_mesh& numbers, const Vertex_attributes& attributes, const Html_options& options,
+std::string page_facts(const Numbers_of_mesh& numbers, const Vertex_attributes& attributes, const Display_options& options,
                        const std::array<double, 3>& center, const Parabolic_parts& parabolic) {
   std::ostringstream json;
   json.imbue(std::locale::classic());
@@ -172,7 +172,7 @@ std::string page_facts(const Numbers_of_mesh& numbers, const Vertex_attributes& 
        << ",\"range\":";
   if (options.range) write_numbers(json, *options.range);
   else json << "null";
-  json << ",\"scale\":\"" << (options.scale ? to_string(*options.scale) : "auto")
+  json << ",\"scale\":\"" << (options.colors ? to_string(*options.colors) : "auto")
        << "\",\"clip\":" << default_clip_percent << ",\"clipSteps\":";
   write_numbers(json, clip_steps);
   json << ",\n\"columns\":[";

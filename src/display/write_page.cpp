@@ -55,7 +55,7 @@ void write_data(std::ostream& out, const Page_surface& surface, const Vertex_att
 }
 
 /// The style, the elements and the description of the surface.
-void write_head_and_panel(std::ostream& out, const Html_options& options) {
+void write_head_and_panel(std::ostream& out, const Display_options& options) {
   const std::string title = html_escaped(options.title);
   out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       << "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" << title << "</title>\n"
@@ -76,7 +76,7 @@ bool is_offered(const std::string& color, const Vertex_attributes& attributes) {
 }
 
 void write_page(std::ostream& out, const Page_surface& surface, const Vertex_attributes& attributes,
-                const Html_options& options) {
+                const Display_options& options) {
   const Parabolic_parts parabolic(surface.triangles, attributes);
   write_head_and_panel(out, options);
   out << "<script type=\"application/json\" id=\"facts\">"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume/nodes_to_measure.h"
+#include <equiaffine/base/internal/parallel_for.h>
 #include <equiaffine/volume/Sample_noise.h>
 #include <equiaffine/volume/Spline_function_3.h>
 #include <equiaffine/volume/Volume_options.h>
@@ -47,8 +48,7 @@ bool erases_mask(const Spline& spline, const Volume_view& mask, double level) {
 
 Spline spline_with(double smoothing, bool in_threads, const Volume_view& volume, Volume_options options) {
   options.smoothing = smoothing;
-  return in_threads ? Spline(volume, options, CGAL::Parallel_if_available_tag())
-                    : Spline(volume, options, CGAL::Sequential_tag());
+  return on_threads_if(in_threads, [&] { return Spline(volume, options, CGAL::Parallel_if_available_tag()); });
 }
 
 } // namespace

@@ -230,7 +230,7 @@ async function compareVolume(name, bytes) {
   else
     execFileSync(program, ['sample', '--function', '(x^2 + 2*y^2 + 3*z^2)*exp(x*y)', '--box', '-1', '1', '-1', '1', '-1', '1',
                            '--resolution', '40', '30', '20', '--type', 'float', '-o', file]);
-  execFileSync(program, ['mesh', '--volume', file, '--isovalue', '0.4', '-o', output]);
+  execFileSync(program, ['mesh', '--volume', file, '--level', '0.4', '-o', output]);
   const native = readPLY(output), here = equiaffine.levelSet(await readVolume(name, readFileSync(file)), {level: 0.4});
   assert.deepEqual(here.triangles, native.triangles, `${name}: triangles`);
   assert.deepEqual(here.status, native.status, `${name}: statuses`);

@@ -45,7 +45,7 @@ Vertex_attributes some_attributes() {
   return attributes;
 }
 
-std::string page(const Mesh& mesh, const Vertex_attributes& attributes = {}, const Html_options& options = {}) {
+std::string page(const Mesh& mesh, const Vertex_attributes& attributes = {}, const Display_options& options = {}) {
   std::ostringstream out;
   write_HTML(out, mesh, attributes, options);
   return out.str();
@@ -197,7 +197,7 @@ TEST(Write_HTML, a_rescaled_surface_has_a_rescaled_resolution) {
 TEST(Write_HTML, text_of_the_user_cannot_become_markup_or_script) {
   Vertex_attributes attributes;
   attributes.columns = {{"</script><script>alert(1)//\"\\\n", {0, 1, 2, 3}}};
-  Html_options options;
+  Display_options options;
   options.title = "<b>\"a\" & 'b'</b></title><script>";
   options.color = attributes.columns[0].name;
   options.description = {{"<i>", "</dl></script>&lt;"}};
@@ -254,7 +254,7 @@ TEST(Write_HTML, a_mesh_without_attributes_and_one_without_points_are_written) {
 }
 
 TEST(Write_HTML, the_first_color_and_the_up_direction_are_passed_on) {
-  Html_options options;
+  Display_options options;
   options.color = "gaussian_curvature";
   options.up = {0, 1, 0};
   const std::string text = page(tetrahedron(), some_attributes(), options);
@@ -277,7 +277,7 @@ TEST(Write_HTML, misuse_is_refused) {
   Mesh bad_index = tetrahedron();
   bad_index.triangles[1][2] = 4;
   EXPECT_THROW(write_HTML(out, bad_index, {}), CGAL::Precondition_exception);
-  Html_options options;
+  Display_options options;
   options.color = "k1";
   EXPECT_THROW(write_HTML(out, tetrahedron(), {}, options), CGAL::Precondition_exception);
   options.color = "status";

@@ -22,15 +22,27 @@ TEST_F(Program_command_line, help_and_version_go_to_standard_output) {
   EXPECT_TRUE(run_well({"--version"}).starts_with("equiaffine "));
 }
 
+TEST_F(Program_command_line, old_names_are_accepted_and_not_shown) {
+  const Arguments named = {"mesh", "--function", "c*x", "--box",        "-1", "1",  "-1",
+                           "1",    "-1",         "1",   "--resolution", "5",  "-o", "-"};
+  EXPECT_EQ(run_well(named + Arguments{"--set", "c=2", "--isovalue", ".5"}),
+            run_well(named + Arguments{"--constants", "c=2", "--level", ".5"}));
+  for (const char* command : {"mesh", "register", "symmetries"}) {
+    const std::string help = run_well({command, "--help"});
+    for (const char* name : {"--isovalue", "--set", "--all ", "--no-reflection "})
+      EXPECT_EQ(help.find(name), std::string::npos) << command << ' ' << name;
+  }
+}
+
 TEST_F(Program_command_line, numbers_and_formulas_may_begin_with_a_minus_sign) {
-  const Json plain = stats_of(
-      {"--function", "x^2 + y^2 + z^2 - 0.5", "--box", "-1", "1", "-1", "1", "-1", "1", "--isovalue", "-0.25"});
+  const Json plain =
+      stats_of({"--function", "x^2 + y^2 + z^2 - 0.5", "--box", "-1", "1", "-1", "1", "-1", "1", "--level", "-0.25"});
   for (const char* isovalue : {"-.25", "-2.5e-1"}) {
     const Json stats = stats_of({"--function",
                                  "x^2 + y^2 + z^2 + c",
-                                 "--set",
+                                 "--constants",
                                  "c=-.5",
-                                 "--isovalue",
+                                 "--level",
                                  isovalue,
                                  "--transform",
                                  "-1",
@@ -110,8 +122,8 @@ TEST_F(Program_command_line, a_run_that_is_interrupted_leaves_nothing_behind) {
 TEST_F(Program_command_line, constants_are_arithmetic_and_formulas_may_come_from_a_file) {
   write_file(folder_ / "formula", "\xef\xbb\xbfx^2 + y^2\r\n  + z^2 = r^2\r\n");
   const auto mesh = [&](const std::string& function, const std::string& radius) {
-    return run_well({"mesh", "--function", function, "--set", "r=" + radius, "--box", "-2", "2", "-2", "2", "-2", "2",
-                     "--resolution", "9", "-o", "-"});
+    return run_well({"mesh", "--function", function, "--constants", "r=" + radius, "--box", "-2", "2", "-2", "2", "-2",
+                     "2", "--resolution", "9", "-o", "-"});
   };
   const std::string typed = mesh("x^2 + y^2 + z^2 = r^2", "1.5");
   EXPECT_EQ(typed, mesh("@formula", "1.5"));

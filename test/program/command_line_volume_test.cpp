@@ -33,12 +33,12 @@ TEST_F(Program_command_line, a_volume_sampled_and_read_again_gives_the_same_surf
 TEST_F(Program_command_line, a_volume_of_two_nodes_per_axis_is_extracted_without_attributes) {
   run_well({"sample", "--function", "x + y + z", "--box", "0", "1", "0", "1", "0", "1", "--resolution", "2", "-o",
             "v.nrrd"});
-  const Json stats = stats_of({"--volume", "v.nrrd", "--isovalue", "1.5", "--attributes", "none"});
+  const Json stats = stats_of({"--volume", "v.nrrd", "--level", "1.5", "--attributes", "none"});
   EXPECT_EQ(stats["vertices"], 6);
   EXPECT_EQ(stats["status"]["outside"], 6);
   EXPECT_EQ(stats["euler_characteristic"], 1);
   EXPECT_TRUE(stats["max_distance_to_surface"].is_null());
-  const Result result = run({"mesh", "--volume", "v.nrrd", "--isovalue", "1.5", "-o", "out.ply"});
+  const Result result = run({"mesh", "--volume", "v.nrrd", "--level", "1.5", "-o", "out.ply"});
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.error, "equiaffine: warning: 6 of 6 vertices are outside and have no attributes: a spline of degree "
                           "7 needs 8 nodes along each axis, and there are 2 along one; give more nodes\n");

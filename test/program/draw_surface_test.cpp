@@ -20,7 +20,7 @@ using namespace equiaffine;
 using Vector = Kernel::Vector_3;
 using Mesh = Indexed_triangle_mesh_3<Kernel>;
 
-const Surface_view small = {{}, {0, 0, 1}, {101, 101}, {}, {}, {}, {}};
+const Display_options small = {.size = {101, 101}};
 
 /// A square that faces the eye of the first view.
 Mesh facing_square() {
@@ -74,7 +74,7 @@ TEST(Program_draw_surface, numbers_have_the_colors_and_the_range_of_the_page) {
 TEST(Program_draw_surface, a_range_can_be_given) {
   Vertex_attributes attributes;
   attributes.columns = {{"anything", {5, 5, 5, 5}}};
-  Surface_view options = small;
+  Display_options options = small;
   options.range = {{-10, 10}};
   const auto drawn = draw_surface(facing_square(), attributes, options);
   ASSERT_TRUE(drawn.legend);
@@ -89,7 +89,7 @@ TEST(Program_draw_surface, what_has_no_number_has_the_color_of_its_status) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Vertex_attributes attributes;
   attributes.columns = {{"k1", {nan, nan, nan, nan}}};
-  Surface_view options = small;
+  Display_options options = small;
   options.color = "k1";
   const std::size_t row = (101 - note_margin - note_height) / 2;
   expect_near(middle(draw_surface(facing_square(), attributes, options).picture, row), shaded(undefined_color()));
@@ -101,7 +101,7 @@ TEST(Program_draw_surface, what_has_no_number_has_the_color_of_its_status) {
 }
 
 TEST(Program_draw_surface, a_number_that_is_infinite_on_a_curve_does_not_pass_through_zero) {
-  Surface_view options = small;
+  Display_options options = small;
   options.range = {{-5, 5}};
   const auto row_of = [&](double left, double right) {
     Vertex_attributes attributes;
@@ -202,14 +202,14 @@ TEST(Program_draw_surface, a_parabolic_region_is_tinted_without_a_line_around_it
 TEST(Program_draw_surface, a_picture_can_have_the_colors_of_another) {
   Vertex_attributes attributes;
   attributes.columns = {{"k1", {5, 5, 5, 5}}};
-  Surface_view options = small;
+  Display_options options = small;
   const Equalization equalization({{1, 1}, {2, 1}, {5, 1}, {9, 1}, {-1, 1}});
   options.mappings = {{"k1", {{-9, 9, 1, true}, Color_scale::EQUALIZED, equalization}}};
   const auto drawn = draw_surface(facing_square(), attributes, options);
   EXPECT_EQ(drawn.legend->mapping, options.mappings.at("k1"));
   expect_near(middle(drawn.picture, (101 - legend_height) / 2),
               shaded(diverging_color(equalization(5) / equalization(9))));
-  options.scale = Color_scale::LINEAR;
+  options.colors = Color_scale::LINEAR;
   expect_near(middle(draw_surface(facing_square(), attributes, options).picture, (101 - legend_height) / 2),
               shaded(diverging_color(5. / 9)));
 }
@@ -242,9 +242,9 @@ TEST(Program_draw_surface, there_is_no_parabolic_line_beside_a_vertex_whose_curv
 }
 
 TEST(Program_draw_surface, notes_that_are_wider_than_the_picture_have_several_lines) {
-  Surface_view options = small;
-  options.notes = {{std::nullopt, "one two three four five six"}, {std::nullopt, "a-word-that-is-longer-than-a-line"}};
-  const auto drawn = draw_surface(facing_square(), {}, options);
+  const std::vector<Surface_note> notes = {{std::nullopt, "one two three four five six"},
+                                           {std::nullopt, "a-word-that-is-longer-than-a-line"}};
+  const auto drawn = draw_surface(facing_square(), {}, small, notes);
   std::vector<std::string> lines; // from the bottom
   for (const auto& note : drawn.notes) lines.push_back(note.text);
   const std::vector<std::string> expected = {"r-than-a-line", "a-word-that-is-longe", "five six", "one two three four"};
@@ -259,7 +259,7 @@ TEST(Program_draw_surface, colors_that_show_no_number_have_notes_and_no_bar) {
   attributes.columns = {{"affine_gaussian_curvature", {nan, nan, nan, nan}}};
   attributes.status = {PARABOLIC, PARABOLIC, PARABOLIC, OUTSIDE};
   for (const char* name : {"affine_gaussian_curvature", "status"}) {
-    Surface_view options = small;
+    Display_options options = small;
     options.color = name;
     const auto drawn = draw_surface(facing_square(), attributes, options);
     EXPECT_FALSE(drawn.legend) << name;
@@ -276,7 +276,7 @@ TEST(Program_draw_surface, notes_leave_room_for_the_surface) {
   Vertex_attributes attributes;
   attributes.columns = {{"k1", {1, nan, nan, nan}}};
   attributes.status = {REGULAR, SINGULAR, OUTSIDE, UNCONVERGED};
-  Surface_view options = small;
+  Display_options options = small;
   EXPECT_EQ(draw_surface(facing_square(), attributes, options).notes.size(), 1u);
   options.size = {101, 201};
   EXPECT_EQ(draw_surface(facing_square(), attributes, options).notes.size(), 3u);
@@ -286,11 +286,11 @@ TEST(Program_draw_surface, notes_that_are_given_stand_below_the_others_with_the_
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Vertex_attributes attributes;
   attributes.columns = {{"surface", {0, 0, 1, nan}}};
-  Surface_view options = small;
+  Display_options options = small;
   options.size = {101, 301};
   options.range = {{0, 1}};
-  options.notes = {{{}, "a map"}, {1, "the source"}};
-  const auto drawn = draw_surface(facing_square(), attributes, options);
+  const std::vector<Surface_note> notes = {{{}, "a map"}, {1, "the source"}};
+  const auto drawn = draw_surface(facing_square(), attributes, options, notes);
   ASSERT_EQ(drawn.notes.size(), 3u);
   EXPECT_EQ(drawn.notes[0].text, "the source");
   EXPECT_EQ(drawn.notes[0].color, sequential_color(1));
@@ -303,7 +303,7 @@ TEST(Program_draw_surface, a_number_in_doubt_is_gray_and_as_light_as_its_color) 
   const auto middle_for = [](double error) {
     Vertex_attributes attributes;
     attributes.columns = {{"pick_invariant", {1, 1, 1, 1}}, {"pick_invariant_error", std::vector<double>(4, error)}};
-    Surface_view options = small;
+    Display_options options = small;
     options.color = "pick_invariant";
     options.range = {{-2, 2}};
     const auto drawn = draw_surface(facing_square(), attributes, options);
@@ -323,12 +323,12 @@ TEST(Program_draw_surface, curves_and_arrows_are_dark_lines_on_it) {
   const auto is_dark = [](const Surface_picture& drawn) { return middle(drawn.picture, 50)[0] < 30; };
   EXPECT_FALSE(is_dark(draw_surface(mesh, {}, small)));
   const std::vector<Polyline_3<Kernel>> diagonal = {{{mesh.points[0], mesh.points[2]}, false}};
-  EXPECT_TRUE(is_dark(draw_surface(mesh, {}, small, diagonal)));
+  EXPECT_TRUE(is_dark(draw_surface(mesh, {}, small, {}, diagonal)));
 
   const Vector along = mesh.points[2] - mesh.points[0];
   Vertex_attributes attributes;
   for (int n = 0; n < 3; ++n) attributes.columns.push_back({std::string("v_") + "xyz" [n], { along[n], 0, 0, 0 }});
-  Surface_view options = small;
+  Display_options options = small;
   options.color = "plain";
   const auto without = draw_surface(mesh, attributes, options).picture.rgb;
   options.arrows = "v";

@@ -42,12 +42,12 @@ TEST_F(Program_errors, facets_that_coordinates_cannot_tell_apart_are_refused) {
 TEST_F(Program_errors, a_surface_outside_the_box_is_none) {
   const Arguments delaunay = {"--method", "delaunay"};
   expect_error(mesh_of("x^2 + y^2 + z^2 + 1") + box + delaunay,
-               {"no surface f = 0 in the box", "between 1 and 13", "choose another --isovalue or box"});
+               {"no surface f = 0 in the box", "between 1 and 13", "choose another --level or box"});
   expect_error(mesh_of("x^2 + y^2 + z^2 - 10") + box + delaunay + Arguments{"--clip", "ball", "--stats", "o.json"},
                {"no surface f = 0 in the ball", "between -10 and 2"});
-  expect_error(mesh_of("log(-1 - x^2)") + box + delaunay, {"undefined", "choose another --isovalue or box"});
+  expect_error(mesh_of("log(-1 - x^2)") + box + delaunay, {"undefined", "choose another --level or box"});
   expect_error(mesh_of("x^2 + y^2 + z^2 + 1") + box, {"no surface f = 0", "between 1 and 13"});
-  expect_error(mesh_of("x") + box + Arguments{"--isovalue", "3", "--html", "o.html", "--stats", "o.json"},
+  expect_error(mesh_of("x") + box + Arguments{"--level", "3", "--html", "o.html", "--stats", "o.json"},
                {"no surface f = 3"});
   expect_error(mesh_of("log(-1 - x^2)") + box, {"undefined"});
 }
@@ -60,7 +60,7 @@ TEST_F(Program_errors_long, it_is_not_said_that_there_is_no_surface_where_none_w
   for (const Arguments& method : {Arguments{}, delaunay})
     for (const char* formula : {"(x^2+y^2+z^2-1)^2", "max(0,x^2+y^2+z^2-1)", "abs(x^2+y^2+z^2-1)", "(x+y-.3)^2+z^2"})
       expect_error(mesh_of(formula) + box + method,
-                   found + Arguments{"f has zeros without a change of sign", "choose another --isovalue"});
+                   found + Arguments{"f has zeros without a change of sign", "choose another --level"});
   expect_error(mesh_of("0*x") + box, found + Arguments{"f is that at all nodes of a grid"});
   expect_error(mesh_of("x^2+y^2+z^2+1e-9") + box, {"no surface f = 0 in the box"});
 }
@@ -68,7 +68,7 @@ TEST_F(Program_errors_long, it_is_not_said_that_there_is_no_surface_where_none_w
 TEST_F(Program_errors, a_pole_is_no_surface) {
   const Arguments delaunay = {"--method", "delaunay", "--radius", "0.3"};
   const Arguments words = {"no part of the surface f = 0 was found in the box",
-                           "at poles or jumps only; choose another --isovalue or box"};
+                           "at poles or jumps only; choose another --level or box"};
   for (const Arguments& method : {Arguments{}, delaunay}) expect_error(mesh_of("1/x") + box + method, words);
   expect_error(mesh_of("abs(x)/x*(1+y^2)") + box + delaunay, words);
 }

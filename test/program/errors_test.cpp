@@ -27,8 +27,8 @@ TEST_F(Program_errors, an_unknown_command_or_option_is_named_and_the_nearest_sug
   expect_error(mesh_of("x") + box + Arguments{"--resolutoin", "64"},
                {"'--resolutoin'", "did you mean '--resolution'?", "equiaffine mesh --help"});
   expect_error(mesh_of("x") + box + Arguments{"--res", "64"}, {"'--res'", "did you mean '--resolution'?"});
-  expect_error(mesh_of("x") + box + Arguments{"--isovalu=1"}, {"'--isovalu=1'", "did you mean '--isovalue'?"});
-  expect_error({"--isovalue", "1", "mesh"}, {"'--isovalue'", "before the command"});
+  expect_error(mesh_of("x") + box + Arguments{"--leve=1"}, {"'--leve=1'", "did you mean '--level'?"});
+  expect_error({"--level", "1", "mesh"}, {"'--level'", "before the command"});
   expect_error({"--", "view", "m.ply", "-o"}, {"'--'", "before the command"});
   expect_error(mesh_of("x") + box + Arguments{"stray"}, {"'stray' is not expected"});
   expect_error({"sample", "--volume", "v.nrrd"}, {"unknown option '--volume'"});
@@ -74,7 +74,7 @@ TEST_F(Program_errors, a_file_that_has_nothing_to_show_is_told_which_command_mak
                {"'bunny.off'", "no attributes", "'equiaffine annotate bunny.off -o bunny.ply --html bunny.html'"});
   expect_error({"view", "p.xyz", "-o", "p.html"},
                {"'p.xyz'", "no faces", "'equiaffine mesh --fit p.xyz -o p.ply --html p.html'"});
-  expect_error({"view", "v.nrrd", "-o", "v.html"}, {"'v.nrrd'", "mesh --volume v.nrrd", "--isovalue"});
+  expect_error({"view", "v.nrrd", "-o", "v.html"}, {"'v.nrrd'", "mesh --volume v.nrrd", "--level"});
   add_input("p.csv", "x,y,z\n1,2,3\n");
   expect_error({"annotate", "p.csv", "-o", "o.csv", "--html", "o.html"},
                {"'p.csv'", "no faces", "'equiaffine mesh --fit p.csv -o OUT.ply --html PAGE.html'"});
@@ -82,7 +82,7 @@ TEST_F(Program_errors, a_file_that_has_nothing_to_show_is_told_which_command_mak
 
 TEST_F(Program_errors, options_of_fits_with_another_source_say_what_that_has) {
   expect_error(mesh_of("x") + box + Arguments{"--scale", "1"},
-               {"--scale", "--fit", "a formula has no points", "leave it out"});
+               {"--scale", "of a fit", "a formula has no points", "leave it out"});
   expect_error({"mesh", "--volume", "v.nrrd", "--noise", "1", "-o", "out.ply"}, {"--noise", "--smoothing auto"});
   expect_error({"mesh", "--distance-to", "m.off", "--scale", "1", "-o", "out.ply"},
                {"--scale", "use --fit m.off in place of --distance-to"});
@@ -142,9 +142,9 @@ TEST_F(Program_errors, a_source_is_given_once_with_what_belongs_to_it) {
   expect_error(mesh_of("x") + Arguments{"--volume", "v.nrrd"}, {"--function and --volume"});
   expect_error(mesh_of("x") + Arguments{"--function", "y"}, {"--function", "more than once"});
   expect_error({"mesh", "--volume", "v.nrrd", "-o", "out.ply", "--resolution", "64"},
-               {"--resolution", "--volume has its own"});
-  expect_error(Arguments{"mesh", "--volume", "v.nrrd", "-o", "out.ply"} + box, {"--box", "--volume has its own"});
-  expect_error({"mesh", "--volume", "v.nrrd", "-o", "out.ply", "--set", "a=1"}, {"--set"});
+               {"--resolution", "a volume has its own"});
+  expect_error(Arguments{"mesh", "--volume", "v.nrrd", "-o", "out.ply"} + box, {"--box", "a volume has its own"});
+  expect_error({"mesh", "--volume", "v.nrrd", "-o", "out.ply", "--constants", "a=1"}, {"--constants"});
   expect_error({"mesh", "--volume", "v.nrrd", "-o", "out.ply", "--derivatives", "jets"}, {"--derivatives", "jets"});
   expect_error(mesh_of("--box") + box, {"--function", "a value is missing before --box"});
   expect_error({"evaluate", "--function", "x", "--derivatives", "spline", "--points", "p.csv", "-o", "o.csv"},
@@ -152,12 +152,13 @@ TEST_F(Program_errors, a_source_is_given_once_with_what_belongs_to_it) {
 }
 
 TEST_F(Program_errors, constants_are_numbers_with_names) {
-  expect_error(mesh_of("a*x") + box + Arguments{"--set", "a"}, {"--set", "'a'", "name=value"});
-  expect_error(mesh_of("a*x") + box + Arguments{"--set", "a=b"}, {"--set a=b", "'b' is not a number"});
-  expect_error(mesh_of("a*x") + box + Arguments{"--set", "a=1", "a=2"}, {"--set a=2", "has a value already"});
-  expect_error(mesh_of("a*x") + box + Arguments{"--set", "a=inf"}, {"'inf' is not a finite number"});
+  expect_error(mesh_of("a*x") + box + Arguments{"--constants", "a"}, {"--constants", "'a'", "name=value"});
+  expect_error(mesh_of("a*x") + box + Arguments{"--constants", "a=b"}, {"--constants a=b", "'b' is not a number"});
+  expect_error(mesh_of("a*x") + box + Arguments{"--constants", "a=1", "a=2"},
+               {"--constants a=2", "has a value already"});
+  expect_error(mesh_of("a*x") + box + Arguments{"--constants", "a=inf"}, {"'inf' is not a finite number"});
   for (const char* bad : {"2*y", "1/0", "2*", "pi*b"})
-    expect_error(mesh_of("a*x") + box + Arguments{"--set", std::string("a=").append(bad)},
+    expect_error(mesh_of("a*x") + box + Arguments{"--constants", std::string("a=").append(bad)},
                  {std::string("'").append(bad).append("' is not a number"), "2*pi/3"});
 }
 
@@ -194,7 +195,7 @@ TEST_F(Program_errors, words_to_choose_from_are_listed) {
   expect_error(mesh_of("x") + box + Arguments{"--attributes", "k1,kk"}, {"--attributes", "'kk'"});
   expect_error(mesh_of("x") + box + Arguments{"--threads", "0"}, {"--threads", "'0'"});
   expect_error(mesh_of("x") + box + Arguments{"--threads", "1000000000"}, {"--threads", "'1000000000'", "1024"});
-  expect_error(mesh_of("x") + box + Arguments{"--isovalue", "high"}, {"--isovalue", "'high'"});
+  expect_error(mesh_of("x") + box + Arguments{"--level", "high"}, {"--level", "'high'"});
   expect_error(mesh_of("x") + box + Arguments{"--color", "k1"}, {"--color", "--html"});
   expect_error(mesh_of("x") + box + Arguments{"--html", "o.html", "--color", "affine_k1"}, {"--color", "'affine_k1'"});
 }

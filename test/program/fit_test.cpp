@@ -175,7 +175,7 @@ TEST_F(Program_fit_long, sheets_that_the_grid_does_not_tell_apart_are_warned_of)
 }
 
 TEST_F(Program_fit_long, every_reason_for_no_surface_has_its_sentence) {
-  expect_error({"mesh", "--fit", "s.ply", "--isovalue", "7", "-o", "a.ply"},
+  expect_error({"mesh", "--fit", "s.ply", "--level", "7", "-o", "a.ply"},
                {"no surface f = 7", "'s.ply'", "two spacings", "nearer to 0"});
   expect_error({"mesh", "--fit", "s.ply", "--box", "5", "6", "5", "6", "5", "6", "-o", "a.ply"},
                {"no part of the fit to 's.ply' is in the box", "it lies in -1.", "--box that meets that"});
@@ -193,7 +193,7 @@ TEST_F(Program_fit, a_small_box_cuts_a_small_part_out) {
 
 TEST_F(Program_fit, what_cannot_be_used_is_refused) {
   expect_error({"mesh", "--function", "x", "--box", "-1", "1", "-1", "1", "-1", "1", "--scale", "1", "-o", "a.ply"},
-               {"--scale", "--fit"});
+               {"--scale", "polynomials of a fit"});
   expect_error({"mesh", "--fit", "s.ply", "--distance-to", "s.ply", "-o", "a.ply"}, {"both given"});
   expect_error({"mesh", "--fit", "no.ply", "-o", "a.ply"}, {"no.ply", "no such file"});
   expect_error({"mesh", "--fit", "s.ply", "-o", "s.ply"}, {"replace"});

@@ -111,7 +111,7 @@ TEST_F(Program_register, all_maps_are_listed_when_asked) {
   const Arguments symmetric =
       Arguments{"--function", "x^4+y^4+z^4-1+.3*x^2*y-.2*x^2*z+.25*y^3+.3*y*z+.15*z^3-.2*y*z^2", "--resolution", "24"} +
       box;
-  const Json found = registered(symmetric, symmetric + transform, {"--all", "5"});
+  const Json found = registered(symmetric, symmetric + transform, {"--number-of-maps", "5"});
   ASSERT_EQ(found["maps"].size(), 2U);
   EXPECT_EQ(found["maps"][0]["matrix"], found["matrix"]);
   EXPECT_LT(double(found["maps"][0]["determinant"]) * double(found["maps"][1]["determinant"]), 0);
@@ -125,7 +125,7 @@ TEST_F(Program_register_long, kinds_and_reflections_are_obeyed) {
   const Arguments mirror = {"--transform", "-1", "0", "0", "0", "1", "0", "0", "0", "1"};
   const Json mirrored = registered(surface, surface + mirror, {"--kind", "rigid"});
   EXPECT_NEAR(mirrored["determinant"], -1, 1e-12);
-  EXPECT_EQ(registered(surface, surface + mirror, {"--no-reflection"})["found"], false);
+  EXPECT_EQ(registered(surface, surface + mirror, {"--no-reflections"})["found"], false);
   EXPECT_EQ(registered(surface, image, {"--kind", "similarity"})["found"], false);
   EXPECT_EQ(registered(surface, image, {"--kind", "equiaffine"})["found"], false);
 }
@@ -141,11 +141,11 @@ TEST_F(Program_register, where_there_is_no_map_it_says_what_to_try) {
       outcome(plane, plane),
       "no map found: no points of the two have frames that are determined and agree; try --kind similarity, whose "
       "frames need fewer derivatives and exist on quadrics, too, or surfaces that have more in common");
-  const std::string narrow = outcome(surface, image, {"--kind", "rigid", "--no-reflection", "--html", "page.html"});
+  const std::string narrow = outcome(surface, image, {"--kind", "rigid", "--no-reflections", "--html", "page.html"});
   EXPECT_TRUE(narrow.starts_with("no map found: ")) << narrow;
   EXPECT_TRUE(
       narrow.ends_with("; try --kind similarity, which allows other sizes, or --kind affine, which allows all maps, "
-                       "or the command without --no-reflection, or surfaces that have more in common"))
+                       "or the command without --no-reflections, or surfaces that have more in common"))
       << narrow;
   for (const char* text : {"no map found", "--kind affine, which allows all maps", "1 source, not moved (dark violet)"})
     EXPECT_NE(file("page.html").find(text), std::string::npos) << text;
@@ -198,8 +198,9 @@ TEST_F(Program_register, boxes_have_no_curvature_and_are_found_by_their_triangle
   write_file(folder_ / "box.off", "OFF\n8 6 0\n0 0 0\n3 0 0\n3 2 0\n0 2 0\n0 0 1\n3 0 1\n3 2 1\n0 2 1\n" + faces);
   write_file(folder_ / "other.off", "OFF\n8 6 0\n0 0 0\n3 0 0\n3 2 0\n0 2 0\n0 0 1\n3 0 1\n3 2 1.4\n0 2 1\n" + faces);
   const Arguments turn = {"--transform", "0", "-1", "0", "1", "0", "0", "0", "0", "1", "5", "6", "7"};
-  const Json found = registered({"box.off"}, Arguments{"box.off"} + turn,
-                                {"--kind", "rigid", "--moved", "moved.ply", "--html", "page.html", "--all", "9"});
+  const Json found =
+      registered({"box.off"}, Arguments{"box.off"} + turn,
+                 {"--kind", "rigid", "--moved", "moved.ply", "--html", "page.html", "--all", "9"});
   ASSERT_EQ(found["found"], true);
   EXPECT_EQ(found["matched_by"], "triangles");
   EXPECT_EQ(found["maps"].size(), 8U);
@@ -304,7 +305,8 @@ TEST_F(Program_register, what_cannot_be_used_is_refused) {
   expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--kind", "afine"}, {"--kind", "afine", "affine"});
   expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--min-overlap", "5"},
                {"--min-overlap", "'5'", "0 to 1"});
-  expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--all", "0"}, {"--all", "'0'"});
+  expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--number-of-maps", "0"},
+               {"--number-of-maps", "'0'"});
   expect_error({"register", "a.ply", "to", "a.foo", "-o", "m.json"}, {"a.foo", "extension"});
   expect_error({"register", "a.ply", "to", "--volume", "a.ply", "b.ply", "-o", "m.json"}, {"both given"});
   expect_error({"register", "no.ply", "to", "a.ply", "-o", "m.json"}, {"no.ply", "no such file"});
@@ -338,7 +340,7 @@ TEST_F(Program_register, symmetries_of_a_formula_are_a_group) {
 }
 
 TEST_F(Program_register_long, symmetries_are_of_the_kind_that_is_asked_for) {
-  const Arguments resolution = {"--resolution", "32"}, rigid = {"--kind", "rigid"}, proper = {"--no-reflection"};
+  const Arguments resolution = {"--resolution", "32"}, rigid = {"--kind", "rigid"}, proper = {"--no-reflections"};
   const Arguments ellipsoid = Arguments{"--function", "x^2+2*y^2+3*z^2-1"} + box + resolution,
                   cube = Arguments{"--function", "x^4+y^4+z^4-1"} + box + resolution,
                   torus = Arguments{"--function", "(x^2+y^2+z^2+.84)^2=4*(x^2+y^2)"} + box + resolution;
@@ -419,7 +421,7 @@ TEST_F(Program_register, a_mesh_with_flat_faces_has_its_symmetries_with_planes_a
   for (const char* text : {"8 exactly", "1 planes of reflection (magenta)", "2 axes of rotation (dark violet)"})
     EXPECT_NE(file("page.html").find(text), std::string::npos) << text;
   EXPECT_EQ(symmetries({"box.off"})["order"], 48) << "it is an affine cube";
-  EXPECT_EQ(symmetries({"--distance-to", "box.off", "--kind", "rigid", "--no-reflection"})["order"], 4);
+  EXPECT_EQ(symmetries({"--distance-to", "box.off", "--kind", "rigid", "--no-reflections"})["order"], 4);
   const Arguments sheared = Arguments{"--fit", "box.off"} + transform;
   EXPECT_EQ(symmetries(sheared)["order"], 48);
   EXPECT_EQ(symmetries(sheared + Arguments{"--kind", "rigid"})["order"], 2);

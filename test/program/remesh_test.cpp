@@ -101,8 +101,8 @@ TEST_F(Program_remesh_long, what_has_no_faces_or_no_fit_is_refused) {
                {"--method", "remesh", "--fit FILE"});
   expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--method", "remesh", "--resolution", "20"},
                {"--resolution", "no grid"});
-  expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--method", "remesh", "--isovalue", ".1"},
-               {"--isovalue", "remesh"});
+  expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--method", "remesh", "--level", ".1"},
+               {"--level", "remesh"});
   expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--resolution", "20", "--edge-length", ".1"},
                {"--edge-length", "add --method remesh"});
   expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--method", "remesh", "--edge-length", "-1"},

@@ -111,7 +111,7 @@ TEST_F(Same_maps, of_a_mesh_and_points) {
   run_well(Arguments{"mesh", "--function", formula, "--resolution", "22", "--attributes", "none", "-o", "b.csv", "--transform", "1", "0",
                      "0",    "0",          "0.8",   "0.6",          "0",  "-0.6", "0.8",   "1",           "2", "3"} +
            box);
-  expect_same(registered("a.off", "b.csv", {"--kind", "similarity", "--no-reflection"}),
+  expect_same(registered("a.off", "b.csv", {"--kind", "similarity", "--no-reflections"}),
               register_surfaces<Tag>(read_graph("a.off"), read("b.csv").points,
                                      {.kind = Map_kind::SIMILARITY, .reflections = false}));
 }
@@ -121,7 +121,7 @@ TEST_F(Same_maps, of_boxes_by_their_triangles) {
   write_box("b.off", ".801");
   const auto a = read("a.off"), b = read("b.off");
   expect_same(
-      registered("a.off", "b.off", {"--tolerance", "0.01", "--all", "8"}),
+      registered("a.off", "b.off", {"--tolerance", "0.01", "--number-of-maps", "8"}),
       register_surfaces<Tag>(a.points, a.triangles, b.points, b.triangles, {.number_of_maps = 8, .tolerance = 0.01}));
 }
 
@@ -137,7 +137,7 @@ TEST_F(Same_maps, of_a_mesh_onto_itself) {
   run_well(
       Arguments{"mesh", "--function", "x^4+y^4/2+z^4+.5*x*y*z+x^2+y^2+z^2=1", "--resolution", "14", "-o", "a.off"} +
       box);
-  expect_same(symmetries("a.off", {"--kind", "rigid", "--no-reflection"}),
+  expect_same(symmetries("a.off", {"--kind", "rigid", "--no-reflections"}),
               affine_symmetries<Tag>(read_graph("a.off"), {.kind = Map_kind::RIGID, .reflections = false}));
 }
 

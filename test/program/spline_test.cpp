@@ -140,7 +140,7 @@ TEST_F(Program_spline, smoothing_does_not_erase_a_thin_mask_or_is_named_as_the_c
     for (int j = 0; j < 40; ++j)
       for (int i = 0; i < 40; ++i) bytes += char(k >= 20 && k < 22 && std::min(i, j) >= 8 && std::max(i, j) < 32);
   write_file(folder_ / "slab.raw", bytes);
-  const Arguments slab = {"--volume", "slab.raw", "--type", "uint8", "--dims", "40", "40", "40", "--isovalue", ".5"};
+  const Arguments slab = {"--volume", "slab.raw", "--type", "uint8", "--dims", "40", "40", "40", "--level", ".5"};
   const Table table = mesh(slab + Arguments{"--smoothing", "auto"});
   const auto& z = table.at("z");
   EXPECT_LT(*std::min_element(z.begin(), z.end()), 20);
@@ -221,7 +221,7 @@ TEST_F(Program_spline, a_volume_without_a_header_is_described_by_options) {
   };
   const Arguments layout = {"--dims", "3", "2", "4", "--spacing", "0.5", "1", "0.25", "--origin", "1", "2", "3"};
   const auto expect_plane = [&](const std::string& type, const std::string& isovalue) {
-    run_well(Arguments{"mesh", "--volume", "v.raw", "--type", type, "--isovalue", isovalue, "-o", "out.csv",
+    run_well(Arguments{"mesh", "--volume", "v.raw", "--type", type, "--level", isovalue, "-o", "out.csv",
                        "--attributes", "none"} +
              layout);
     const Table table = columns(file("out.csv"));
@@ -268,9 +268,9 @@ TEST_F(Program_spline, distances_may_be_measured_in_a_narrow_band) {
                              "--narrow-band 2 only"),
             std::string::npos)
       << tight.error;
-  const Result beyond = run(Arguments{"mesh", "-o", "no.ply", "--narrow-band", "2", "--isovalue", ".3"} + source);
+  const Result beyond = run(Arguments{"mesh", "-o", "no.ply", "--narrow-band", "2", "--level", ".3"} + source);
   EXPECT_EQ(beyond.status, 2);
-  EXPECT_NE(beyond.error.find("in the band of --narrow-band 2; choose a wider band, another --isovalue or box"),
+  EXPECT_NE(beyond.error.find("in the band of --narrow-band 2; choose a wider band, another --level or box"),
             std::string::npos)
       << beyond.error;
   const Result result = run(Arguments{"mesh", "-o", "out.ply", "--narrow-band", "0.5"} + source);
@@ -280,10 +280,12 @@ TEST_F(Program_spline, distances_may_be_measured_in_a_narrow_band) {
 
 TEST_F(Program_spline, a_constant_that_the_formula_does_not_have_is_reported) {
   const Arguments box = {"--box", "-1", "1", "-1", "1", "-1", "1", "-o", "out.ply"};
-  expect_error(Arguments{"mesh", "--function", "a*x + y", "--set", "a=1", "r=2"} + box, {"--set r", "no 'r'"});
-  expect_error(Arguments{"mesh", "--function", "0*a + y + exp(z)", "--set", "a=1", "x1=2", "--derivatives", "spline"} +
-                   box,
-               {"--set x1", "no 'x1'"});
+  expect_error(Arguments{"mesh", "--function", "a*x + y", "--constants", "a=1", "r=2"} + box,
+               {"--constants r", "no 'r'"});
+  expect_error(
+      Arguments{"mesh", "--function", "0*a + y + exp(z)", "--constants", "a=1", "x1=2", "--derivatives", "spline"} +
+          box,
+      {"--constants x1", "no 'x1'"});
 }
 
 } // namespace spline_test

@@ -25,16 +25,24 @@ class Errors(InTemporaryFolder):
         self.assert_sentence("method", ea.mesh, "x", box=1, method="magic")
         self.assert_sentence("resolution", ea.mesh, "x", box=1, resolution=1)
         self.assert_sentence("level", ea.mesh, "x^2", box=1, level=-1)
-        self.assert_sentence("give one of marching-cubes", ea.mesh, "x", box=1, method=None)
+        self.assert_sentence("method: give marching-cubes or", ea.mesh, "x", box=1, method=None)
         self.assert_sentence("constants=.*VALUE", ea.mesh, "q*x", box=1)
         self.assert_sentence("such as box=2", ea.mesh, "x")
         self.assert_sentence("level: give a number", ea.mesh, "x", box=1, level=[1, 2])
-        self.assert_sentence("level: give a finite", ea.mesh, "x", box=1, level=np.nan)
-        self.assert_sentence("level: give a number", ea.mesh, "x", box=1, level=True)
+        self.assert_sentence("level: 'nan' is not a finite number", ea.mesh, "x", box=1, level=np.nan)
+        for wrong in (True, np.True_, "2", "2*pi", None, 2j, b"1", {"a": 1}, object()):
+            self.assert_sentence("^level: .*number", ea.mesh, "x", box=1, level=wrong)
         self.assert_sentence("whole number", ea.mesh, "x", box=1, resolution=8.7)
         self.assert_sentence("whole number", ea.mesh, "x", box=1, threads=1.5)
         self.assert_sentence("attributes", ea.mesh, "x", box=1, attributes=None)
-        self.assert_sentence("cannot name a constant", ea.mesh, "c*x", box=1, constants={"c": 1, "c=3": 1})
+        nested = []
+        nested.append(nested)
+        for wrong in (nested, [["k1"]], "\ud800", (name for name in iter(lambda: "k1", ""))):
+            self.assert_sentence("^attributes: give", ea.mesh, "x", box=1, attributes=wrong)
+        for wrong in ([], (2, 3), [2, [3], 4], 1 << 70):
+            self.assert_sentence("^resolution: ", ea.mesh, "x", box=1, resolution=wrong)
+        self.assert_sentence("constants c=3=1: ", ea.mesh, "c*x", box=1, constants={"c": 1, "c=3": 1})
+        self.assert_sentence("constants: give a dictionary", ea.mesh, "c*x", box=1, constants="c=1")
         self.assert_sentence("GB", ea.mesh, "x", box=1, resolution=20000)
         self.assert_sentence("unknown name 'help'(?s:.*)\n--help\n  \\^", ea.mesh, "--help", box=1)
         self.assert_sentence("nothing to evaluate", ea.mesh, "", box=1)
@@ -61,6 +69,7 @@ class Errors(InTemporaryFolder):
         page = self.folder / "page.html"
         found = []
         for call in (lambda: ea.mesh("x", box=1, attributes="k1_error"), lambda: ea.fit(ball).mesh(level=5, resolution=16),
+                     lambda: ea.fit(ball).mesh(method="remesh"),
                      lambda: ea.view(ea.Surface(ball.V), page), lambda: ea.view(ball, page, size=(9, 9)),
                      lambda: ea.curvatures(ball, degree=7), lambda: ea.mesh(np.ones((9, 9, 9)), smoothing=-1)):
             with self.assertRaises(ValueError) as caught:
@@ -81,12 +90,13 @@ class Errors(InTemporaryFolder):
         for name, call in {
                 "spacing": lambda: ea.mesh(samples, spacing=(1, 2)), "origin": lambda: ea.Volume(samples, origin="abc"),
                 "direction": lambda: ea.mesh(samples, direction=np.diag([1, 1, 2])), "values": lambda: ea.Volume(samples[0]),
-                "constants['r']": lambda: ea.mesh("x + r", box=1, constants={"r": "a"}),
+                "constants r=a": lambda: ea.mesh("x + r", box=1, constants={"r": "a"}),
+                "min_overlap": lambda: ea.register(ball, ball, min_overlap=2), "scale": lambda: ea.fit(ball, scale="large"),
                 "range": lambda: ea.view(ball, self.folder / "a.html", range=1),
                 "size": lambda: ea.view(ball, self.folder / "a.png", size=(100,)),
                 "normals": lambda: ea.curvatures(ball.V, normals=ball.V[:5]), "points": lambda: ea.register(ball, ball).apply([1]),
                 "progress": lambda: ea.evaluate("x", [[1, 2, 3]], progress=3),
-                "reflection": lambda: ea.symmetries(ball, reflection="no"), "V": lambda: ea.curvatures(bad, ball.F),
+                "reflections": lambda: ea.symmetries(ball, reflections="no"), "V": lambda: ea.curvatures(bad, ball.F),
                 "a": lambda: ea.register(ea.fit(ball), ball), "f": lambda: ea.mesh(lambda x, y, z: x[:, :3], box=1),
                 "attributes": lambda: ea.Surface(ball.V, ball.F, {"status": ball["k1"]}).save(self.folder / "a.ply")}.items():
             with self.assertRaisesRegex(ValueError, "^" + re.escape(name) + ": "):

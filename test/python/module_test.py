@@ -44,7 +44,7 @@ class SameAsProgram(InTemporaryFolder):
             samples = values.astype(dtype)
             volume = ea.Volume(samples.astype(float), (0.1, 0.12, 0.13), (1, 2, 3))
             volume.save(self.folder / "v.nrrd")
-            run_program("mesh", "--volume", self.folder / "v.nrrd", "--isovalue", 100, "-o", self.folder / "v.ply")
+            run_program("mesh", "--volume", self.folder / "v.nrrd", "--level", 100, "-o", self.folder / "v.ply")
             expected = ea.read(self.folder / "v.ply")
             twice = np.repeat(np.repeat(samples, 2, axis=0), 3, axis=2)
             for array in (samples, np.asfortranarray(samples), twice[::2, :, ::3], samples[::-1, ::-1][::-1, ::-1]):

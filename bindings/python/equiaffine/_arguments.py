@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arguments of the functions become words of the program's command line, and arrays of the types that the core takes."""
-import math
+"""Arguments of the functions become options of the core, and arrays of the types that it takes."""
 import numbers
 import operator
 import os
@@ -12,80 +11,26 @@ from . import _core
 from ._results import Fit, Surface, Volume
 
 
-def number_word(name, value):
-    """A number, or a word such as "auto", for the command line."""
-    if isinstance(value, str) and re.fullmatch(r"[a-z]+", value):
-        return value
-    return repr(finite_number(name, value))
+def given(**options):
+    """The options that are not None. The core checks them."""
+    return {name: value for name, value in options.items() if value is not None}
 
 
-def finite_number(name, value):
+def finite_numbers(value):
+    """An array of finite numbers, with none if something else is among them."""
     try:
-        if isinstance(value, (bool, str, bytes)) or numpy.ndim(value) != 0 or isinstance(value, complex):
-            raise TypeError
-        number = float(value)
-    except TypeError:
-        raise ValueError(f"{name}: give a number, and not {value!r}") from None
-    if not math.isfinite(number):
-        raise ValueError(f"{name}: give a finite number, and not {value!r}")
-    return number
-
-
-def numbers_of(**values):
-    """The words of options with a number each; None is left out."""
-    words = []
-    for name, value in values.items():
-        if value is not None:
-            words += ["--" + name.replace("_", "-"), number_word(name, value)]
-    return words
-
-
-def integer_of(name, value):
-    try:
-        return str(operator.index(value))
-    except TypeError:
-        raise ValueError(f"{name}: give a whole number, and not {value!r}") from None
-
-
-def choice_of(name, value, *choices):
-    if value not in choices:
-        raise ValueError(f"{name}: give one of {', '.join(choices)}, and not {value!r}")
-    return value
-
-
-def resolution_of(resolution):
-    """Three numbers of nodes, of which one may stand for all."""
-    values = list(numpy.atleast_1d(numpy.asarray(resolution, object)))
-    if len(values) not in (1, 3):
-        raise ValueError(f"resolution: give a whole number, or three, and not {resolution!r}")
-    return [integer_of("resolution", value) for value in (values * 3 if len(values) == 1 else values)]
-
-
-def common_words(attributes, threads, orientation=None):
-    if not isinstance(attributes, str):
-        try:
-            attributes = ",".join(attributes)
-        except TypeError:
-            raise ValueError(f"attributes: give names, and not {attributes!r}") from None
-    words = ["--attributes", attributes]
-    if orientation is not None:
-        words += ["--orientation", choice_of("orientation", orientation, "gradient", "against")]
-    return words + thread_words(threads)
-
-
-def thread_words(threads):
-    return [] if threads is None else ["--threads", integer_of("threads", threads)]
+        found = numpy.asarray(value)
+        if found.dtype.kind == "O" and not any(isinstance(item, (bool, str)) for item in found.ravel()):
+            found = found.astype(float)
+    except (TypeError, ValueError):
+        return numpy.empty(0)
+    return found.astype(float) if found.dtype.kind in "fiu" and numpy.isfinite(found).all() else numpy.empty(0)
 
 
 def numbers_in(name, value, count):
-    """An array of so many finite numbers."""
-    try:
-        if isinstance(value, str):
-            raise ValueError
-        found = numpy.asarray(value, float)
-    except (TypeError, ValueError):
-        found = numpy.empty(0)
-    if found.shape != (count,) or not numpy.isfinite(found).all():
+    """An array of that many finite numbers."""
+    found = finite_numbers(value)
+    if found.shape != (count,):
         raise ValueError(f"{name}: give {count} finite numbers, and not {value!r}")
     return found
 
@@ -93,47 +38,28 @@ def numbers_in(name, value, count):
 def spacing_of(spacing):
     if spacing is None:
         return numpy.ones(3)
-    if numpy.ndim(spacing) == 0:
-        return numpy.full(3, finite_number("spacing", spacing))
-    return numbers_in("spacing", spacing, 3)
+    return numbers_in("spacing", [spacing] * 3 if numpy.ndim(spacing) == 0 else spacing, 3)
 
 
 def direction_of(direction):
     """A matrix with unit vectors in its columns."""
     if direction is None:
         return numpy.eye(3)
-    try:
-        found = numpy.asarray(direction, float)
-    except (TypeError, ValueError):
-        found = numpy.empty(0)
+    found = finite_numbers(direction)
     if found.shape != (3, 3) or not (abs(numpy.linalg.norm(found, axis=0) - 1) < 1e-6).all():
         raise ValueError("direction: give a matrix of the shape (3, 3), with a unit vector in each column; lengths are spacing")
     return found
 
 
-def progress_of(progress):
-    if progress is not None and not callable(progress):
-        raise ValueError(f"progress: give a function of three numbers, and not {progress!r}")
-    return progress
-
-
 def box_of(box):
     if box is None:
         return None
-    try:
-        box = numpy.asarray(box, float)
-    except (TypeError, ValueError):
-        box = numpy.empty(0)
+    box = finite_numbers(box)
     if box.ndim == 0:
         box = numpy.array([-1, 1, -1, 1, -1, 1]) * abs(float(box))
-    if box.shape not in ((6,), (3, 2)) or not numpy.isfinite(box).all() or not (box.ravel()[::2] < box.ravel()[1::2]).all():
+    if box.shape not in ((6,), (3, 2)) or not (box.ravel()[::2] < box.ravel()[1::2]).all():
         raise ValueError("box: give xmin, xmax, ymin, ymax, zmin, zmax, or one number for a cube around the origin")
     return box.ravel()
-
-
-def box_words(box):
-    box = box_of(box)
-    return [] if box is None else ["--box", *map(repr, box.tolist())]
 
 
 def array_of(values, name, kinds):
@@ -236,7 +162,11 @@ def sampled(function, box, resolution):
     box = box_of(box)
     if box is None:
         raise ValueError("box: say where the function is to be sampled, such as box=2")
-    shape = [int(word) for word in resolution_of(64 if resolution is None else resolution)]
+    try:
+        nodes = numpy.asarray(64 if resolution is None else resolution, object)
+        shape = [operator.index(n) for n in numpy.broadcast_to(nodes, 3)]
+    except (TypeError, ValueError):
+        raise ValueError(f"resolution: give a whole number, or three, and not {resolution!r}") from None
     if min(shape) < 2:
         raise ValueError("resolution: two nodes or more are needed along each axis")
     x, y, z = [numpy.linspace(box[2 * k], box[2 * k + 1], shape[k]) for k in range(3)]
@@ -251,25 +181,21 @@ def sampled(function, box, resolution):
 
 
 def source_of(f, *, constants=None, box=None, resolution=None, spacing=None, origin=None, direction=None, smoothing=None):
-    """The words of a source, and what it is made of."""
+    """The options of a source, and what it is made of."""
     def refuse(kind, **others):
         for name, value in others.items():
             if value is not None:
                 raise TypeError(f"{name} is not for {kind}")
     samples = {"spacing": spacing, "origin": origin, "direction": direction}
-    resolution_words = [] if resolution is None else ["--resolution", *resolution_of(resolution)]
     if isinstance(f, str):
         refuse("a formula", smoothing=smoothing, **samples)
-        if not hasattr(constants or {}, "items"):
-            raise ValueError("constants: give a dictionary of names and numbers")
-        values = {str(name): finite_number(f"constants[{name!r}]", value) for name, value in (constants or {}).items()}
-        return ["--function=f", *box_words(box), *resolution_words], (f, values)
+        return given(function="f", constants=constants, box=box_of(box), resolution=resolution), f
     refuse("what is no formula", constants=constants)
     if isinstance(f, Surface):
         raise ValueError("f: a Surface is no function; fit(surface) makes one")
     if isinstance(f, Fit):
         refuse("a fit", smoothing=smoothing, **samples)
-        return ["--fit=V", *box_words(box), *resolution_words], f._core
+        return given(fit="V", box=box_of(box), resolution=resolution), f._core
     if callable(f):
         refuse("a function", **samples)
         f, spacing, origin = sampled(f, box, resolution)
@@ -278,14 +204,17 @@ def source_of(f, *, constants=None, box=None, resolution=None, spacing=None, ori
         f, spacing, origin, direction = f.values, f.spacing, f.origin, f.direction
     else:
         refuse("an array", box=box, resolution=resolution)
-    return ["--volume=f", *numbers_of(smoothing=smoothing)], volume_view_of(f, spacing, origin, direction)
+    return given(volume="f", smoothing=smoothing), volume_view_of(f, spacing, origin, direction)
 
 
-def fit_words(scale, noise=None, degree=None, feature_angle=None):
-    if isinstance(scale, numbers.Real) and scale == 0:
-        scale = "none"
-    words = numbers_of(scale=scale, noise=noise, feature_angle=feature_angle)
-    return words if degree in (None, "auto") else [*words, "--degree", integer_of("degree", degree)]
+def scale_of(scale):
+    """The scale, for which 0 is another word for "none"."""
+    return "none" if isinstance(scale, numbers.Real) and not isinstance(scale, bool) and scale == 0 else scale
+
+
+def fit_options(scale, noise, degree, feature_angle, threads):
+    return given(MESH="V", scale=scale_of(scale), noise=noise, degree=degree, feature_angle=feature_angle,
+                 threads=threads)
 
 
 def data_of(V, F, normals=None):
@@ -301,20 +230,21 @@ def data_of(V, F, normals=None):
     return V.V, V.F, normals
 
 
-def registered(a, name):
-    """The words of a surface, and its data if they are in memory."""
+def registered(a, name, scale):
+    """The options of a surface to register, and its data if they are in memory."""
+    options = given(FILE=name + ".ply", scale=scale_of(scale))
     if isinstance(a, (str, os.PathLike)):
         path = os.fspath(a)
         if not os.path.exists(path):
             raise ValueError(f"{name}: there is no file '{path}'")
-        return [path], None
+        return {**options, "FILE": os.fsencode(path)}, None
     if isinstance(a, Surface):
         a = data_of(a, None)
     if isinstance(a, (Fit, Volume)):
         raise ValueError(f"{name}: give a Surface, (V, F), points or the path of a file, and not a {type(a).__name__}")
     if isinstance(a, tuple) and not 2 <= len(a) <= 3:
         raise ValueError(f"{name}: give (V, F) or (V, F, normals)")
-    return [name + ".ply"], mesh_of(*a, name=name) if isinstance(a, tuple) else mesh_of(a, name=name)
+    return options, mesh_of(*a, name=name) if isinstance(a, tuple) else mesh_of(a, name=name)
 
 
 def path_of(path):

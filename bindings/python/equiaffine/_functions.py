@@ -9,11 +9,9 @@ import webbrowser
 import numpy
 
 from . import _core
-from ._arguments import (choice_of, common_words, data_of, fit_words, integer_of, mesh_of, number_word, numbers_in,
-                         numbers_of, path_of, places_of, progress_of, registered, source_of, thread_words, volume_view_of,
-                         whole_mesh_of)
+from ._arguments import (data_of, fit_options, given, mesh_of, path_of, places_of, registered, source_of,
+                         volume_view_of, whole_mesh_of)
 from ._results import Fit, Registration, Surface, Symmetries, Values, Volume
-from ._sentences import here, sentences
 
 _VOLUMES = (".nrrd", ".nhdr", ".mhd", ".mha", ".nii", ".nii.gz", ".inr", ".inr.gz", ".vti", ".dcm")
 
@@ -36,33 +34,40 @@ def mesh(f, *, level=0, box=None, resolution=None, method="marching-cubes", spac
         point; or a fit. Derivatives of samples are those of a spline. NaN means no sample: nothing is known within 7 voxels
         of it, and of what smoothing reaches, so that vertices there are OUTSIDE.
     level : float
-        The value of f on the surface.
+        The value of f on the surface, 0 by default.
     box : float or sequence of 6 floats
-        xmin, xmax, ymin, ymax, zmin, zmax, or a number for a cube around the origin. A formula and a function need it.
+        xmin, xmax, ymin, ymax, zmin, zmax, or a number for a cube around the origin. A formula and a function need it;
+        for a fit it is that of the data by default.
     resolution : int or sequence of 3 ints
-        Nodes along each axis: 64 for a formula or a function, 129 for a fit. Samples are their own grid.
+        Nodes along each axis, 2 or more: by default 64 for a formula or a function, 129 for a fit. Samples are their
+        own grid.
     method : {"marching-cubes", "delaunay"}
         How the surface is sampled.
     spacing, origin, direction : sequences of floats
-        Where samples are: see `Volume`.
+        Where samples are, see `Volume`: steps of 1 from the origin along the axes by default.
     attributes : str or sequence of str
         "basic" is normal, k1, k2, gaussian_curvature, mean_curvature, conormal, affine_normal, affine_gaussian_curvature,
         affine_mean_curvature, pick_invariant, affine_normal_angle, affine_area_density, status. "all" adds affine_k1,
         affine_k2, direction1, direction2, metric. Or some of these names, also quadric_defect, shape_index, curvedness,
-        affine_frame1, affine_frame2, affine_frame3, affine_frame_scale, affine_frame_quality, affine_signature, signature;
-        or "none".
+        vertex_area, affine_area, affine_frame1, affine_frame2, affine_frame3, affine_frame_scale, affine_frame_quality,
+        affine_signature, signature; or "none".
     smoothing : float or "auto"
-        The scale in voxels by which samples are smoothed; 0, the default, is none. Integers and other samples with noise
-        need it: curvatures of unsmoothed noise are noise. "auto" chooses by the noise; `Surface.report` says what.
+        The scale in voxels by which samples are smoothed, up to 100; 0, the default, is none. Integers and other
+        samples with noise need it: curvatures of unsmoothed noise are noise. "auto" chooses by the noise, and
+        `Surface.report` has the scale.
     constants : dict
         Numbers of names in a formula.
     orientation : {"gradient", "against"}
         Whether normals point to larger values of f or to smaller ones.
-    angle, radius, distance : float
-        Bounds for triangles of a Delaunay mesh: the least angle in degrees, the greatest radius of circumscribed circles,
-        and the greatest distance from the surface.
+    angle : float
+        Of a Delaunay mesh: the least angle of triangles in degrees, at most 30, the default.
+    radius : float
+        Of a Delaunay mesh: the greatest radius of surface Delaunay balls, a length; 1/50 of the box's diagonal by default.
+    distance : float
+        Of a Delaunay mesh: the greatest distance of a triangle's circumcenter from the center of that ball, a length;
+        radius / 10 by default.
     threads : int
-        The greatest number of threads. The result does not depend on it.
+        The greatest number of threads, all by default. The result does not depend on it.
     progress : callable
         Is called some twenty times a second with the number of a stage, the steps that are done, and all of them, which
         are 0 where their number is not known. An exception that it raises ends the work.
@@ -79,14 +84,11 @@ def mesh(f, *, level=0, box=None, resolution=None, method="marching-cubes", spac
     >>> float(numpy.abs(numpy.linalg.norm(ball.V, axis=1) - 0.5**0.5).max()) < 1e-8
     True
     """
-    words, given = source_of(f, constants=constants, box=box, resolution=resolution, spacing=spacing, origin=origin,
-                           direction=direction, smoothing=smoothing)
-    words += ["--isovalue", number_word("level", level)]
-    words += ["--method", choice_of("method", method, "marching-cubes", "delaunay")]
-    words += numbers_of(angle=angle, radius=radius, distance=distance)
-    words += common_words(attributes, threads, orientation)
-    with sentences():
-        return _surface(_core.mesh(["mesh", *words, "-o", "result.ply"], given, progress_of(progress)))
+    options, source = source_of(f, constants=constants, box=box, resolution=resolution, spacing=spacing, origin=origin,
+                                direction=direction, smoothing=smoothing)
+    options.update(given(angle=angle, radius=radius, distance=distance, threads=threads), level=level, method=method,
+                   attributes=attributes, orientation=orientation)
+    return _surface(_core.mesh(options, source, progress))
 
 
 def curvatures(V, F=None, *, scale=None, noise=None, normals=None, degree=None, feature_angle=None, attributes="all",
@@ -100,13 +102,13 @@ def curvatures(V, F=None, *, scale=None, noise=None, normals=None, degree=None, 
     F : array_like
         Triangles, (m, 3) of integers. Without them V are points.
     scale : float, "auto" or "none", optional
-        The length that tells shape from detail. By default curvatures are the surface's own where the data resolve them,
+        A length that tells shape from detail. By default curvatures are the surface's own where the data resolve them,
         else those at the smallest scale at which half of the vertices are known to 20 %; 0 insists on the surface's own.
     noise : float or "auto"
         The standard deviation of the points from the surface, a length; by default it is estimated.
     normals : array_like
         Normals of points without triangles, (n, 3).
-    degree : int
+    degree : int or "auto"
         Of the polynomials: 4, 5, 6, 8 or 10; by default the data choose.
     feature_angle : float
         Edges that bend by more than this angle in degrees, 60 by default, are creases if they follow each other; 180 for
@@ -131,10 +133,9 @@ def curvatures(V, F=None, *, scale=None, noise=None, normals=None, degree=None, 
     True
     """
     V, F, normals = data_of(V, F, normals)
-    words = ["annotate", "V", *fit_words(scale, noise, degree, feature_angle),
-             *common_words(attributes, threads, orientation), "-o", "result.ply"]
-    with sentences():
-        surface = _surface(_core.annotate(words, mesh_of(V, F, normals), progress_of(progress)))
+    options = fit_options(scale, noise, degree, feature_angle, threads)
+    options.update(attributes=attributes, orientation=orientation)
+    surface = _surface(_core.annotate(options, mesh_of(V, F, normals), progress))
     names = surface.attributes.keys()
     for error in [name for name in names if name.endswith("_error")]:
         if error[:-6] not in surface and error[:-6] not in names:
@@ -160,10 +161,7 @@ def fit(V, F=None, *, scale=None, noise=None, normals=None, degree=None, feature
     0.01
     """
     V, F, normals = data_of(V, F, normals)
-    words = ["annotate", "V", *fit_words(scale, noise, degree, feature_angle), *common_words("none", threads),
-             "-o", "result.ply"]
-    with sentences():
-        core = _core.fit(words, mesh_of(V, F, normals), progress_of(progress))
+    core = _core.fit(fit_options(scale, noise, degree, feature_angle, threads), mesh_of(V, F, normals), progress)
     copy = lambda array: None if array is None else numpy.array(array)
     return Fit(core, dict(V=copy(V), F=copy(F), scale=scale, noise=noise, normals=copy(normals), degree=degree,
                           feature_angle=feature_angle))
@@ -194,23 +192,15 @@ def evaluate(f, points, *, constants=None, box=None, resolution=None, spacing=No
     """
     if isinstance(f, (str, Fit)) and (box is not None or resolution is not None):
         raise TypeError("box and resolution are for a function that is sampled")
-    words, given = source_of(f, constants=constants, box=box, resolution=resolution, spacing=spacing, origin=origin,
-                           direction=direction, smoothing=smoothing)
-    words += common_words(attributes, threads, orientation)
-    with sentences():
-        result = _core.evaluate(["evaluate", *words, "--points", "points.csv", "-o", "result.csv"], given,
-                                places_of(points), progress_of(progress))
+    options, source = source_of(f, constants=constants, box=box, resolution=resolution, spacing=spacing, origin=origin,
+                                direction=direction, smoothing=smoothing)
+    options.update(given(threads=threads), attributes=attributes, orientation=orientation)
+    result = _core.evaluate(options, source, places_of(points), progress)
     return Values(result["columns"], result["status"])
 
 
-def _map_words(kind, reflection, tolerance):
-    if not isinstance(reflection, (bool, numpy.bool_)):
-        raise ValueError(f"reflection: give True or False, and not {reflection!r}")
-    words = ["--kind", choice_of("kind", kind, "affine", "equiaffine", "similarity", "rigid")]
-    return words + ([] if reflection else ["--no-reflection"]) + numbers_of(tolerance=tolerance)
-
-
-def register(a, b, *, kind="affine", reflection=True, tolerance=None, overlap=None, scale=None, threads=None, progress=None):
+def register(a, b, *, kind="affine", reflections=True, tolerance=None, min_overlap=None, number_of_maps=None,
+             scale=None, threads=None, progress=None):
     """Find the map that moves a surface, or a part of it, onto another one.
 
     Parameters
@@ -219,13 +209,16 @@ def register(a, b, *, kind="affine", reflection=True, tolerance=None, overlap=No
         The source and the target: a Surface, (V, F), (V, F, normals), points, or the path of a mesh or of points.
     kind : {"affine", "equiaffine", "similarity", "rigid"}
         The maps among which one is sought.
-    reflection : bool
+    reflections : bool
         Whether it may change left and right.
     tolerance : float
-        How far the surfaces may be apart, as a part of the size of the target; by default the data decide.
-    overlap : float
-        The part of one of the surfaces, at least, that is to lie on the other; 0.05 by default.
-    scale : float, optional
+        The largest rms distance of moved points from the target, a part of its size below 0.1; by default what noise
+        and facets explain.
+    min_overlap : float
+        The part of one of the surfaces, at least, that must lie on the other; 0.05 by default.
+    number_of_maps : int
+        The greatest number of maps with evidence, as `report["maps"]` has them. By default the best one alone is sought.
+    scale : float, "auto" or "none", optional
         The length that tells shape from detail on both sides, as of `curvatures`.
     threads, progress
         As of `mesh`.
@@ -244,25 +237,23 @@ def register(a, b, *, kind="affine", reflection=True, tolerance=None, overlap=No
     >>> bool(numpy.abs(found.matrix[:3, :3] - shear).max() < 1e-3)
     True
     """
-    (source, source_data), (target, target_data) = registered(a, "a"), registered(b, "b")
-    at_scale = fit_words(scale)
-    words = ["register", *source, *at_scale, "to", *target, *at_scale, *_map_words(kind, reflection, tolerance),
-             *thread_words(threads)]
-    words += [] if overlap is None else ["--min-overlap", number_word("overlap", overlap)]
-    with sentences():
-        report, summary = _core.register([*words, "-o", "result.json"], source_data, target_data, progress_of(progress))
-    return Registration(json.loads(report), here(summary.strip()))
+    (options, source), (options_of_target, target) = registered(a, "a", scale), registered(b, "b", scale)
+    options.update(given(tolerance=tolerance, min_overlap=min_overlap, number_of_maps=number_of_maps, threads=threads),
+                   kind=kind, reflections=reflections)
+    report, summary = _core.register(options, source, options_of_target, target, progress)
+    return Registration(json.loads(report), summary.strip())
 
 
-def symmetries(a, *, kind="affine", reflection=True, tolerance=None, scale=None, threads=None, progress=None):
+def symmetries(a, *, kind="affine", reflections=True, tolerance=None, scale=None, threads=None, progress=None):
     """Find the maps of a surface onto itself.
 
     Parameters
     ----------
     a : Surface, tuple, array_like or path
         As of `register`.
-    kind, reflection, tolerance, scale, threads, progress
-        As of `register`; the tolerance is a part of the size of the surface.
+    kind, reflections, tolerance, scale, threads, progress
+        As of `register`. The tolerance is a part of the size of the surface: by default 1e-3 for points, and 0.01 for a
+        mesh, of which the first group of symmetries counts.
 
     Returns
     -------
@@ -276,21 +267,19 @@ def symmetries(a, *, kind="affine", reflection=True, tolerance=None, scale=None,
     >>> equiaffine.symmetries((V, F), kind="rigid").order
     48
     """
-    surface, data = registered(a, "a")
-    words = ["symmetries", *surface, *fit_words(scale), *_map_words(kind, reflection, tolerance), *thread_words(threads)]
-    with sentences():
-        report, summary = _core.symmetries([*words, "-o", "result.json"], data, progress_of(progress))
-    return Symmetries(json.loads(report), here(summary.strip()))
+    options, surface = registered(a, "a", scale)
+    options.update(given(tolerance=tolerance, threads=threads), kind=kind, reflections=reflections)
+    report, summary = _core.symmetries(options, surface, progress)
+    return Symmetries(json.loads(report), summary.strip())
 
 
 def read(path):
     """Read a file: a Surface from .ply, .off, .obj, .stl, .csv or .xyz, and a Volume from .nrrd, .mhd, .mha, .nii,
     .nii.gz, .inr, .inr.gz, .vti or .dcm."""
     path, text = path_of(path)
-    with sentences():
-        if not text.lower().endswith(_VOLUMES):
-            return _surface(_core.read_surface(path))
-        arrays = _core.read_volume(path)
+    if not text.lower().endswith(_VOLUMES):
+        return _surface(_core.read_surface(path))
+    arrays = _core.read_volume(path)
     spacing = numpy.linalg.norm(arrays["steps"], axis=1)
     return Volume(arrays["values"], spacing, arrays["origin"], (arrays["steps"] / spacing[:, None]).T)
 
@@ -302,10 +291,9 @@ def write(path, data):
     into .nrrd, .mhd, .mha, .nii, .nii.gz or .vti.
     """
     path, _ = path_of(path)
-    with sentences():
-        if isinstance(data, Volume):
-            return _core.write_volume(path, volume_view_of(data.values, data.spacing, data.origin, data.direction, "values"))
-        return _core.write_surface(path, whole_mesh_of(data))
+    if isinstance(data, Volume):
+        return _core.write_volume(path, volume_view_of(data.values, data.spacing, data.origin, data.direction, "values"))
+    return _core.write_surface(path, whole_mesh_of(data))
 
 
 def view(surface, path=None, *, color=None, up=None, range=None, colors=None, size=None):
@@ -320,41 +308,32 @@ def view(surface, path=None, *, color=None, up=None, range=None, colors=None, si
     color : str
         The attribute that is shown, a component of a vector such as "nx", "status", or "plain" for none.
     up : {"x", "y", "z", "auto"}
-        The axis that is up.
+        The axis that is up; by default the shape decides.
     range : pair of floats
-        The numbers that have the end colors.
+        The numbers that have the end colors, by default quantiles.
     colors : {"linear", "logarithmic", "equalized", "auto"}
-        How numbers become colors.
+        How numbers become colors; by default the numbers decide.
     size : pair of ints
-        Width and height of a picture in pixels.
+        Width and height of a picture in pixels, 1000 and 800 by default.
     """
-    words = [] if color is None else ["--color", str(color)]
-    words += [] if up is None else ["--up", choice_of("up", up, "x", "y", "z", "auto")]
-    words += [] if colors is None else ["--colors", choice_of("colors", colors, "linear", "logarithmic", "equalized", "auto")]
-    if range is not None:
-        words += ["--range", *map(repr, numbers_in("range", range, 2).tolist())]
-    if size is not None:
-        if numpy.shape(size) != (2,):
-            raise ValueError(f"size: give two whole numbers, and not {size!r}")
-        words += ["--size", *(integer_of("size", number) for number in size)]
+    options = given(color=color, up=up, range=range, colors=colors, size=size)
     mesh_to_show = whole_mesh_of(surface)
     if path is not None:
-        return _show(words, mesh_to_show, path)
+        return _show(options, mesh_to_show, path)
     handle, target = tempfile.mkstemp(prefix="equiaffine-", suffix=".html")
     os.close(handle)
     try:
-        _show(words, mesh_to_show, target)
+        _show(options, mesh_to_show, target)
     except BaseException:
         os.unlink(target)
         raise
     webbrowser.open(pathlib.Path(target).as_uri())
 
 
-def _show(words, mesh_to_show, path):
+def _show(options, mesh_to_show, path):
     path, text = path_of(path)
-    option = "--png" if text.lower().endswith(".png") else "-o"
-    with sentences():
-        _core.show(["view", "surface.ply", *words, option, path], mesh_to_show)
+    output = "png" if text.lower().endswith(".png") else "output"
+    _core.show({"MESH.ply": "surface.ply", output: path, **options}, mesh_to_show)
 
 
 def page_of(surface):

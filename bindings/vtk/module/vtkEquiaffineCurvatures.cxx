@@ -134,11 +134,13 @@ int vtkEquiaffineCurvatures::RequestData(vtkInformation*, vtkInformationVector**
     const Fit_options options = {.scale = this->Scale < 0 ? std::nullopt : std::optional(this->Scale),
                                  .degree = this->Degree == 0 ? std::nullopt : std::optional(this->Degree),
                                  .feature_angle = this->FeatureAngle};
-    const auto areas = selected_vertex_areas(selection, points_of(*input), triangles_of(*input));
+    if (input->GetNumberOfPolys() + input->GetNumberOfStrips() == 0) refuse_attributes_of_mesh(selection);
     const Structures structures = structures_of(*input, options,
                                                 this->Orientation == AGAINST
                                                     ? Orientation_of_level_set::AGAINST_GRADIENT
                                                     : Orientation_of_level_set::ALONG_GRADIENT);
+    std::vector<double> areas; // after the fit, which checks the triangles
+    if (attribute_of_mesh(selection)) areas = selected_vertex_areas(selection, points_of(*input), triangles_of(*input));
     add_columns(structures, selection, areas, this->EstimateErrors, *output->GetPointData());
   } catch (const Aborted&) {
     output->Initialize();

@@ -343,8 +343,7 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
       check(task.volume);
       const bool has_attributes = this->Attributes && *this->Attributes != '\0';
       task.selection = select_attributes(has_attributes ? this->Attributes : "none");
-      const Indexed_triangle_mesh_3<equiaffine::Kernel> none; // slabs and pieces are not a whole mesh
-      selected_vertex_areas(task.selection, none.points, none.triangles);
+      refuse_attributes_of_mesh(task.selection); // slabs and pieces are not a whole mesh
       task.errors = this->EstimateErrors ? selected_errors(task.selection, true) : Error_rows();
       require(task.volume.spline_scheme != Spline_scheme::INTERPOLATION || ranks.count() == 1,
               "spline interpolation needs the whole image in one process; choose quasi-interpolation");

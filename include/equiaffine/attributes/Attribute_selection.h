@@ -101,19 +101,28 @@ inline Attribute_selection select_attributes(std::string_view list) {
   return selection;
 }
 
+/// Returns a selected attribute that only the vertices of a mesh with faces have, such as `vertex_area`, or null.
+inline const Attribute* attribute_of_mesh(const Attribute_selection& selection) {
+  for (const Attribute& column : selection.columns)
+    if (attribute_table<double>[column.row].lists & attribute_lists::of_mesh) return &column;
+  return nullptr;
+}
+
+/// \throw Input_error if a selected attribute needs a mesh with faces.
+inline void refuse_attributes_of_mesh(const Attribute_selection& selection) {
+  if (const Attribute* const attribute = attribute_of_mesh(selection))
+    throw Input_error("the attribute '" + std::string(attribute->name) +
+                      "' is only known at the vertices of a whole mesh: leave it out, or give a mesh with faces");
+}
+
 /// Returns the areas around the vertices of a mesh if a selected attribute needs them, or else nothing.
-/// \throw Input_error if one needs them, and there are no polygons.
+/// \throw Input_error if one needs them, and there are points without polygons.
 template <class Points, class Polygons>
 std::vector<double> selected_vertex_areas(const Attribute_selection& selection, const Points& points,
                                           const Polygons& polygons) {
-  for (const Attribute& column : selection.columns) {
-    if (!(attribute_table<double>[column.row].lists & attribute_lists::of_mesh)) continue;
-    if (std::ranges::empty(polygons))
-      throw Input_error("the attribute '" + std::string(column.name) +
-                        "' is only known at the vertices of a whole mesh: leave it out, or give a mesh with faces");
-    return vertex_areas(points, polygons);
-  }
-  return {};
+  if (!attribute_of_mesh(selection)) return {};
+  if (!std::ranges::empty(points) && std::ranges::empty(polygons)) refuse_attributes_of_mesh(selection);
+  return vertex_areas(points, polygons);
 }
 
 /// The names that select_attributes() reads, vectors and forms by one name each, for a text of help.

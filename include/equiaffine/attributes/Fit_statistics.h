@@ -36,7 +36,10 @@ struct Fit_statistics {
   double doubtful_by_detail = 0; ///< the same, most of it from what the fits around disagree on
 
   /// The parts of the points at which an attribute is known. \pre fits estimate its error
-  const Parts& known_of(std::string_view attribute) const { return known[find_row(attribute)->error.place]; }
+  const Parts& known_of(std::string_view attribute) const {
+    CGAL_precondition(find_row(attribute)->error.get != nullptr);
+    return known[find_row(attribute)->error.place];
+  }
 };
 
 /// The quantities that affine maps of determinant 1 keep or carry along, as attributes, in the order in which people

@@ -62,10 +62,9 @@ void fill_maps_of_fit(Mesh& mesh, const Parameters& parameters,
   std::vector<typename Mesh::Point> points;
   for (const auto v : mesh.vertices()) points.push_back(get(vertex_points(mesh, parameters), v));
   const auto areas = areas_of_surface_mesh(mesh, points);
-  auto attributes = attributes_of_fit(structures, selection_of_named_maps(!areas.empty()), areas);
+  add_named_maps(mesh, mesh.vertices(), attributes_of_fit(structures, selection_of_named_maps(!areas.empty()), areas));
   for (const Estimate_attribute& estimate : estimate_attributes())
-    attributes.columns.push_back(estimate.column(structures));
-  add_named_maps(mesh, mesh.vertices(), attributes);
+    add_named_maps(mesh, mesh.vertices(), {{estimate.column(structures)}, std::nullopt});
 }
 
 } // namespace equiaffine::internal

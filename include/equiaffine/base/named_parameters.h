@@ -52,7 +52,7 @@ struct Vertex_conormal_tag {};
 struct Vertex_pick_invariant_tag {};
 struct Vertex_affine_metric_tag {};
 struct Vertex_affine_area_density_tag {};
-/// The tag of the map of errors of what the map with a tag has.
+/// Tag of the map with the estimated errors of the values that `Tag` stands for.
 template <class Tag>
 struct Error_tag {};
 using Vertex_affine_mean_curvature_error_tag = Error_tag<Vertex_affine_mean_curvature_tag>;

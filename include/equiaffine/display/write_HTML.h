@@ -4,7 +4,7 @@
 #define EQUIAFFINE_DISPLAY_WRITE_HTML_H
 
 #include <equiaffine/base/internal/compiler.h>
-#include <equiaffine/display/color_map.h>
+#include <equiaffine/display/Display_options.h>
 #include <equiaffine/display/internal/Column_numbers.h>
 #include <equiaffine/display/internal/Parabolic_parts.h>
 #include <equiaffine/mesh/Indexed_triangle_mesh_3.h>
@@ -19,36 +19,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <map>
-#include <optional>
 #include <ostream>
 #include <string>
-#include <utility>
 #include <vector>
-
-namespace equiaffine {
-
-/// Options for a page of `write_HTML`: the text on it and what it shows first. All text is UTF-8.
-struct Html_options {
-  std::string title = "Equi-affine curvatures"; ///< files that are saved from the page are named after it
-  /// The attribute shown first, or `status`, or `plain`; empty: the first quantity of the library
-  /// that is there and trusted (`first_shown`).
-  std::string color = {};
-  /// The numbers of the end colors of the attribute shown first; nothing: quantiles of its numbers.
-  std::optional<std::array<double, 2>> range = {};
-  /// The scale of colors for all attributes; nothing: the one that suits the numbers of each.
-  std::optional<Color_scale> scale = {};
-  /// The attributes named here have these mappings, such as those of another page, whatever their own numbers are.
-  std::map<std::string, Color_mapping> mappings = {};
-  /// The text behind the labels and symbols of the library's quantities, such as " at scale 0.1".
-  std::string label_suffix = {};
-  /// A table that says what the surface is and how it was made.
-  std::vector<std::pair<std::string, std::string>> description = {};
-  /// The direction that is up in the first view and around which dragging turns.
-  std::array<double, 3> up = {0, 0, 1};
-};
-
-} // namespace equiaffine
 
 namespace equiaffine::internal {
 
@@ -104,16 +77,16 @@ struct Page_surface {
 #pragma GCC visibility push(default)
 #endif
 
-/// Whether the page can show what `Html_options::color` names.
+/// Whether the page can show what `Display_options::color` names.
 bool is_offered(const std::string& color, const Vertex_attributes& attributes);
 
 /// Everything that the page has to know besides the arrays, as JSON.
-std::string page_facts(const Numbers_of_mesh& numbers, const Vertex_attributes& attributes, const Html_options& options,
+std::string page_facts(const Numbers_of_mesh& numbers, const Vertex_attributes& attributes, const Display_options& options,
                        const std::array<double, 3>& center, const Parabolic_parts& parabolic);
 
 /// The page of `write_HTML`: its elements, the facts and arrays of the surface, and the script that draws it.
 void write_page(std::ostream& out, const Page_surface& surface, const Vertex_attributes& attributes,
-                const Html_options& options);
+                const Display_options& options);
 
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility pop
@@ -133,7 +106,7 @@ namespace equiaffine {
 /// ascending, `options.up` is not zero
 template <class Kernel>
 void write_HTML(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
-                const Html_options& options = {}) {
+                const Display_options& options = {}) {
   CGAL_precondition(internal::is_consistent(mesh, attributes));
   CGAL_precondition(internal::is_offered(options.color, attributes));
   CGAL_precondition(!options.range || (*options.range)[0] < (*options.range)[1]);

@@ -43,8 +43,9 @@ std::vector<std::string> read_points(const std::string& path, Points& points, co
   const std::size_t before = points.size();
   internal::append_points(points, file.mesh.points);
   const auto added = CGAL::make_range(std::next(std::begin(points), std::ptrdiff_t(before)), std::end(points));
-  internal::fill_maps(points, added, parameters, file.attributes, path);
-  return file.attributes.comments;
+  const auto comments = file.attributes.comments;
+  internal::fill_maps(points, added, parameters, std::move(file.attributes), path);
+  return comments;
 }
 
 /// Writes points with the numbers at them as `.ply` or `.csv`: those that a CGAL::Point_set_3 has under names, whose

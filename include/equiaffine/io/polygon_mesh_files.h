@@ -102,10 +102,11 @@ std::vector<std::string> read_polygon_mesh(const std::string& path, Graph& mesh,
   static_assert(!std::is_const_v<Graph>, "the mesh that is read is const: give one that can be changed");
   static_assert(check_coordinates<Point_of_vertices<Graph, Joined>>());
   const Joined parameters = internal::joined_parameters(given...);
-  const auto file = internal::polygons_of_file(path);
+  auto file = internal::polygons_of_file(path);
   const auto added = internal::add_polygons(mesh, vertex_points(mesh, parameters), file, path);
-  internal::fill_maps(mesh, added, parameters, file.attributes, path);
-  return file.attributes.comments;
+  const auto comments = file.attributes.comments;
+  internal::fill_maps(mesh, added, parameters, std::move(file.attributes), path);
+  return comments;
 }
 
 /// Writes a mesh with the numbers at its vertices, in the format that the extension says: `.ply` and `.csv` hold all

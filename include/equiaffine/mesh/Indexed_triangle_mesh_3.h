@@ -79,13 +79,13 @@ struct Isosurface_3 : Indexed_triangle_mesh_3<Kernel> {
       projection_seconds = 0;           ///< the time that it took to put vertices on the surface
 };
 
-/// What is known of points before their attributes are computed. Each is empty, or has one entry per point.
+/// Optional inputs for the attributes of points, as views. Each is empty, or has one entry per point.
 struct Sampled_vertices {
   std::span<const Point_status> status; ///< of the sampler
   std::span<const double> areas;        ///< of vertex_areas()
 
   Sampled_vertices() = default; ///< nothing is known
-  /// The statuses, a range that is a span of them, and the areas.
+  /// `statuses` is any contiguous range of Point_status.
   template <std::convertible_to<std::span<const Point_status>> Statuses>
   Sampled_vertices(const Statuses& statuses, std::span<const double> vertex_areas = {})
       : status(statuses), areas(vertex_areas) {}

@@ -115,7 +115,7 @@ struct Quantity {
 struct Attribute_error {
   std::size_t place = 0; ///< among the columns of errors; the two that splines have, too, come first
   double (*get)(const Local_structure_error_3<double>&) = nullptr; ///< null if no error is estimated
-  /// Returns the number of which an error is called a part: it is not zero where a curvature only changes its sign.
+  /// Returns the reference magnitude for relative errors. It does not vanish where a curvature merely changes sign.
   double (*size)(const Local_structure_3<double>&) = nullptr;
   std::string_view name_of_size = {}; ///< as the program writes it
   double power_of_negligible = 0;     ///< of |K_e|, in negligible(); 0 if no error is negligible

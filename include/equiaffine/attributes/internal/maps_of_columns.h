@@ -209,21 +209,24 @@ void fill_numbers(Container& container, const std::string& key, const Elements& 
 }
 
 /// Adds a map for every column to a container that has maps under names, and one for every three that are a vector.
+/// Frees the memory of each column when its map is filled.
 template <class Container, class Elements>
-void add_named_maps(Container& container, Elements&& elements, const Vertex_attributes& attributes) {
+void add_named_maps(Container& container, Elements&& elements, Vertex_attributes&& attributes) {
   using Maps = Named_maps<Container>;
-  const auto& columns = attributes.columns;
+  auto& columns = attributes.columns;
   for (std::size_t c = 0; c < columns.size(); ++c) {
     const std::string vector = vector_at(columns, c);
     if (vector.empty()) {
       fill_numbers(
           container, Maps::key(columns[c].name), elements, [&](std::size_t row) { return columns[c].values[row]; },
           Numbers_of_maps());
+      columns[c].values = {};
       continue;
     }
     fill_map(Maps::template add<typename Maps::Vector_3>(container, Maps::key(vector)), elements, [&](std::size_t row) {
       return std::array{columns[c].values[row], columns[c + 1].values[row], columns[c + 2].values[row]};
     });
+    for (std::size_t n = 0; n < 3; ++n) columns[c + n].values = {};
     c += 2;
   }
   if (attributes.status)

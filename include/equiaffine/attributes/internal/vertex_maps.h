@@ -91,10 +91,10 @@ auto value_of(Tag, const std::array<FT, Size>& n) {
 
 /// The value in the map with a tag, from a Local_structure_3 or a Fitted_structure_3.
 template <class Tag, class S>
-auto value_for(Tag tag, const S& s) {
+decltype(auto) value_for(Tag tag, const S& s) {
   const auto& structure = structure_in(s);
   if constexpr (std::is_same_v<Tag, Vertex_status_tag>) return structure.status;
-  else if constexpr (std::is_same_v<Tag, Vertex_structure_tag>) return s;
+  else if constexpr (std::is_same_v<Tag, Vertex_structure_tag>) return (s);
   else if constexpr (is_error_tag<Tag>) return attribute_table<double>[columns_of<Tag>[0].row].error.get(s.error);
   else {
     std::array<std::decay_t<decltype(structure.euclidean.k1)>, columns_of<Tag>.size()> numbers;

@@ -22,8 +22,8 @@ const Vertex_attributes::Column* find_errors(const Vertex_attributes& attributes
 /// Returns whether a number is known to one digit: the estimated error is at most half of the size of the number.
 bool is_known(double size, double error);
 
-/// Returns the numbers that errors of a column are called parts of: those of attribute_table.h, or the numbers
-/// themselves, but at least twice a negligible error.
+/// Returns the reference magnitudes for the errors of a column: those of attribute_table.h, or the numbers themselves,
+/// but at least twice a negligible error.
 std::vector<double> sizes_of_numbers(const Vertex_attributes::Column& column, const Vertex_attributes& attributes);
 
 /// Returns the part of the numbers of a column that are not known to one digit: the estimated error is more than half of

@@ -181,7 +181,7 @@ inline std::optional<std::vector<Point_status>> status_in_cells(const std::vecto
 /// \throw Input_error if the file has no columns for a map that is given
 template <class Container, class Elements, class Parameters>
 void fill_maps(Container& container, Elements&& elements, const Parameters& parameters,
-               const Vertex_attributes& attributes, const std::string& path) {
+               Vertex_attributes&& attributes, const std::string& path) {
   if constexpr (has_maps_of_files<Parameters>) {
     const auto column = [&](const std::string& name) -> const auto& {
       const auto* const found = find_column(attributes, name);
@@ -191,7 +191,9 @@ void fill_maps(Container& container, Elements&& elements, const Parameters& para
     fill_given_maps(elements, parameters, column, Column_tags());
     if (has_parameter<Vertex_status_tag, Parameters> && !attributes.status) fail_without_column("status", path);
     if (attributes.status) fill_status_map(elements, parameters, *attributes.status);
-  } else if constexpr (Named_maps<Container>::exist) add_named_maps(container, elements, attributes);
+  } else if constexpr (Named_maps<Container>::exist) {
+    add_named_maps(container, elements, std::move(attributes));
+  }
 }
 
 } // namespace equiaffine::internal
