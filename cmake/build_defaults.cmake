@@ -8,7 +8,8 @@ endif()
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # Without the sloppiness ccache refuses to cache a compilation that uses a precompiled header. It learns the headers of a
-  # source from the compiler: to preprocess each source first would take a tenth of the time of a first build.
+  # source from the compiler: to preprocess each source first would take a tenth of the time of a first build. It takes
+  # paths relative to the project, so that clones share what they compile.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
-                                  ${CCACHE_PROGRAM})
+                                  CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${CCACHE_PROGRAM})
 endif()

@@ -14,8 +14,10 @@ const Engine<Function>& engine(Instruction_set set) {
   const auto sets = instruction_sets();
   check_argument(std::find(sets.begin(), sets.end(), set) != sets.end(),
                  "this processor or this build does not have the instruction set: give one of instruction_sets()");
-#ifdef EQUIAFFINE_WITH_INSTRUCTION_SETS
+#ifdef EQUIAFFINE_WITH_AVX512
   if (set == Instruction_set::AVX512) return std::get<Engine<Function>>(*equiaffine_engines_avx512());
+#endif
+#ifdef EQUIAFFINE_WITH_AVX2
   if (set == Instruction_set::AVX2) return std::get<Engine<Function>>(*equiaffine_engines_avx2());
 #endif
   return std::get<Engine<Function>>(*equiaffine_engines_baseline());
@@ -25,13 +27,13 @@ const Engine<Function>& engine(Instruction_set set) {
 
 std::vector<Instruction_set> instruction_sets() {
   std::vector<Instruction_set> sets = {Instruction_set::BASELINE};
-#ifdef EQUIAFFINE_WITH_INSTRUCTION_SETS
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-    sets.push_back(Instruction_set::AVX2);
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl"))
-      sets.push_back(Instruction_set::AVX512);
-  }
+#ifdef EQUIAFFINE_WITH_AVX2
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) sets.push_back(Instruction_set::AVX2);
+#endif
+#ifdef EQUIAFFINE_WITH_AVX512
+  if (__builtin_cpu_supports("fma") && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    sets.push_back(Instruction_set::AVX512);
 #endif
   return sets;
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // annotate(), annotate_by_fit() and the samplers with the meshes, maps and named parameters of CGAL.
 #include "support/contraction.h"
+#include "support/formulas.h"
 #include "support/sample_volume.h"
 #include <equiaffine/attributes/annotate.h>
 #include <equiaffine/attributes/annotate_by_fit.h>
-#include <equiaffine/formula/analytic_functions.h>
-#include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/Sampled_function_traits_3.h>
 #include <equiaffine/marching_cubes/marching_cubes.h>
 
@@ -52,11 +51,8 @@ template <class Graph, class Value>
 using Values = std::map<Vertex_of<Graph>, Value>;
 
 auto ellipsoid(double unit = 1) {
-  const auto f = [unit](const auto& x, const auto& y, const auto& z) {
-    return x * x + 2 * y * y + 3 * z * z - unit * unit;
-  };
   const double r = 1.3 * unit;
-  return make_analytic_traits<Kernel>(f, CGAL::Bbox_3(-r, -r, -r, r, r, r));
+  return test::Formula(Expression_3("x^2+2*y^2+3*z^2-unit^2", {{"unit", unit}}), CGAL::Bbox_3(-r, -r, -r, r, r, r));
 }
 
 /// Adds quads over a grid of the plane, and a row of pentagons and triangles, to a mesh: z = height(x, y).
@@ -198,7 +194,7 @@ TEST(Annotate_maps, fits_to_a_mesh_of_any_size_are_right_within_their_errors) {
 }
 
 TEST(Annotate_maps, curvatures_of_a_sphere_are_positive_as_in_CGAL) {
-  const auto sphere = make_analytic_traits<Kernel>(analytic_functions::Sphere{0.5}, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  const auto sphere = test::formula("x^2+y^2+z^2-.25", CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
   Surface_mesh mesh;
   marching_cubes(sphere, mesh, {.resolution = 10});
   using Vertex = Surface_mesh::Vertex_index;
@@ -313,7 +309,7 @@ TEST(Annotate_maps, a_map_that_grows_when_it_is_read_has_the_same_entries_with_t
 
 TEST(Annotate_maps, fits_to_a_point_set_take_its_points_and_the_normals_that_CGAL_calls_normal_map) {
   const auto traits = ellipsoid();
-  const auto surface = marching_cubes(traits, {.resolution = 16});
+  const auto surface = test::surface_of(traits, {.resolution = 16});
   CGAL::Point_set_3<Point> points;
   points.add_normal_map();
   for (const auto& p : surface.points) {

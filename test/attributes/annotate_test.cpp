@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/contraction.h"
+#include "support/formulas.h"
 #include <equiaffine/attributes/annotate.h>
-#include <equiaffine/formula/Expression_3.h>
-#include <equiaffine/function/Analytic_function_traits_3.h>
-#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
 
@@ -23,14 +21,13 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vertex_index = Mesh::Vertex_index;
 
 auto torus() {
-  return make_analytic_traits<Kernel>(Expression_3("z^2+(sqrt(x^2+y^2)-0.5)^2-0.04"),
-                                      CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  return test::formula("z^2+(sqrt(x^2+y^2)-0.5)^2-0.04", CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
 }
 
 TEST(Annotate, property_maps_hold_the_local_structure_of_their_vertices) {
   SKIP_IF_THE_COMPILER_CONTRACTS();
   const auto traits = torus();
-  Mesh mesh = to_surface_mesh(marching_cubes(traits, {.resolution = 20}));
+  Mesh mesh = to_surface_mesh(test::surface_of(traits, {.resolution = 20}));
   annotate(mesh, traits);
   ASSERT_TRUE(mesh.is_valid(false));
   const auto scalar = [&](const std::string& name) {
@@ -96,7 +93,7 @@ TEST(Annotate, no_face_is_lost_where_a_mesh_is_not_a_manifold) {
 TEST(Annotate, columns_and_maps_hold_the_same_numbers_for_any_number_of_threads) {
   SKIP_IF_THE_COMPILER_CONTRACTS();
   const auto traits = torus();
-  const auto surface = marching_cubes(traits, {.resolution = 20});
+  const auto surface = test::surface_of(traits, {.resolution = 20});
   Mesh mesh = to_surface_mesh(surface);
   annotate<CGAL::Parallel_if_available_tag>(mesh, traits);
   const auto columns =

@@ -2,6 +2,7 @@
 // Every function for meshes takes a CGAL::Surface_mesh with removed elements whose garbage is not collected, and gives
 // what it gives for the same mesh without them.
 #include "support/Scratch_file.h"
+#include "support/formulas.h"
 #include <equiaffine/attributes/annotate.h>
 #include <equiaffine/attributes/annotate_by_fit.h>
 #include <equiaffine/delaunay/delaunay_surface.h>
@@ -9,7 +10,6 @@
 #include <equiaffine/fit/fitted_structures.h>
 #include <equiaffine/fit/move_to_fit.h>
 #include <equiaffine/fit/remesh_on_fit.h>
-#include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/io/polygon_mesh_files.h>
 #include <equiaffine/marching_cubes/marching_cubes.h>
 #include <equiaffine/registration/affine_symmetries.h>
@@ -17,8 +17,8 @@
 #include <equiaffine/surface/parabolic_curves.h>
 #include <equiaffine/volume/signed_distance_volume.h>
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -35,23 +35,19 @@
 namespace removed_elements_test {
 
 using namespace equiaffine;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Kernel = CGAL::Simple_cartesian<double>;
 using Point_3 = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point_3>;
 using Vertex = Mesh::Vertex_index;
 
 auto quartic() {
-  const auto f = [](const auto& x, const auto& y, const auto& z) {
-    return x * x * x * x + 2 * y * y * y * y + 3 * z * z * z * z + x * y * z / 2. + x * x * y / 3. - z * y * y / 4. -
-           1.;
-  };
-  return make_analytic_traits<Kernel>(f, CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
+  return test::formula("x^4+2*y^4+3*z^4+x*y*z/2+x^2*y/3-z*y^2/4-1", CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
 }
 
 /// A closed mesh of triangles with removed vertices, edges and faces at the beginning and in the middle, and a vertex
 /// removed at the end.
 Mesh mesh_with_garbage() {
-  Mesh mesh = to_surface_mesh(marching_cubes(quartic(), {.resolution = 24}));
+  Mesh mesh = to_surface_mesh(test::surface_of(quartic(), {.resolution = 24}));
   const Vertex last = mesh.add_vertex(Point_3(0, 0, 0)); // it would take the place of a removed one later
   for (const unsigned v : {0u, 3u, 200u}) CGAL::Euler::remove_center_vertex(mesh.halfedge(Vertex(v)), mesh);
   CGAL::Polygon_mesh_processing::triangulate_faces(mesh);
@@ -149,7 +145,7 @@ TEST(Removed_elements, distances_curves_and_files_are_those_of_the_mesh_without_
 }
 
 TEST(Removed_elements, a_mesh_that_has_them_gets_the_surface_of_a_sampler) {
-  const auto surface = marching_cubes(quartic(), {.resolution = 12});
+  const auto surface = test::surface_of(quartic(), {.resolution = 12});
   Mesh mesh = mesh_with_garbage();
   const std::size_t vertices = mesh.number_of_vertices() + surface.points.size();
   const std::size_t faces = mesh.number_of_faces() + surface.triangles.size();

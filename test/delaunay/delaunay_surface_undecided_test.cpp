@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/formulas.h"
 #include "delaunay/meshed_surfaces.h"
 #include <equiaffine/delaunay/Implicit_mesh_domain_3.h>
 #include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/formula/analytic_functions.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
-#include <equiaffine/marching_cubes/marching_cubes.h>
 #include <equiaffine/mesh/mesh_topology.h>
 
 #include <CGAL/Simple_cartesian.h>
@@ -112,7 +112,7 @@ TEST(Delaunay_surface, what_is_certified_has_the_topology_that_marching_cubes_fi
     const auto surface = delaunay_surface(traits, {.radius = Clip_domain_3(box).diagonal() / 60});
     if (!surface.is_certified) continue;
     ++certified;
-    const auto fine = marching_cubes(traits, {.resolution = 100});
+    const auto fine = test::surface_of(traits, {.resolution = 100});
     const auto expected = mesh_topology(fine.triangles, fine.points.size()), found = topology(surface);
     EXPECT_TRUE(found.is_manifold) << waves.str();
     EXPECT_EQ(found.components, expected.components) << waves.str();
@@ -152,7 +152,7 @@ TEST(Delaunay_surface, singular_points_end_in_undecided_boxes) {
   EXPECT_TRUE(is_covered(singular_surface(Cone()), Point_3(0, 0, 0)));
 }
 
-TEST(Delaunay_surface, singular_curves_end_in_undecided_boxes) {
+TEST(Delaunay_surface_long, singular_curves_end_in_undecided_boxes) {
   const auto planes = singular_surface(Three_planes());
   for (double t = -0.95; t < 1; t += 0.1)
     for (const Point_3& p : {Point_3(t, 0, 0), Point_3(0, t, 0), Point_3(0, 0, t)}) EXPECT_TRUE(is_covered(planes, p));

@@ -152,7 +152,7 @@ void expect_continuous(const Mesh& mesh, const Fit& fit) {
   EXPECT_GT(known, 1000u);
 }
 
-TEST(Continuous_fit, the_value_does_not_jump) {
+TEST(Continuous_fit_long, the_value_does_not_jump) {
   for (const Mesh& mesh : {torus(24), square_ring(24), square_ring(24, 0)})
     expect_continuous(mesh, Fit(mesh, {.scale = 0}));
   for (const Mesh& mesh : cornered_solids(8)) expect_continuous(mesh, Fit(mesh, {.scale = 0}));
@@ -198,7 +198,8 @@ TEST(Continuous_fit_long, the_surface_is_whole_where_the_density_of_the_data_jum
   });
   const Fit fit(mesh, {.scale = 0});
   const auto surface =
-      equiaffine::marching_cubes(fit.in_box(CGAL::Bbox_3(-1.7, -1.7, -.7, 1.7, 1.7, .7)), {.resolution = 129});
+      equiaffine::marching_cubes<CGAL::Parallel_if_available_tag>(
+          fit.in_box(CGAL::Bbox_3(-1.7, -1.7, -.7, 1.7, 1.7, .7)), {.resolution = 129});
   Mesh whole = equiaffine::to_surface_mesh(surface);
   CGAL::Polygon_mesh_processing::keep_largest_connected_components(whole, 1);
   EXPECT_TRUE(CGAL::is_closed(whole));
@@ -248,7 +249,7 @@ double part_on_zero_set(const Mesh& mesh, const Fit& fit) {
   return count / double(mesh.number_of_vertices());
 }
 
-TEST(Creases, the_fit_ends_at_them_as_the_data_do) {
+TEST(Creases_long, the_fit_ends_at_them_as_the_data_do) {
   const Mesh mesh = creased_ring();
   const Fit fit(mesh, {.scale = 0});
   EXPECT_GT(part_on_zero_set(mesh, fit), .99);
@@ -261,7 +262,7 @@ TEST(Creases, the_fit_ends_at_them_as_the_data_do) {
   EXPECT_GT(covered, .99 * double(mesh.number_of_faces()));
 }
 
-TEST(Creases, sharp_edges_without_followers_are_none) {
+TEST(Creases_long, sharp_edges_without_followers_are_none) {
   Mesh mesh = torus(24);
   const auto v = *mesh.vertices().begin();
   mesh.point(v) = mesh.point(v) + .2 * (mesh.point(v) - CGAL::ORIGIN);

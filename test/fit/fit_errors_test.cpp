@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/fit_data.h"
 #include <equiaffine/fit/fitted_structures.h>
-#include <equiaffine/formula/Expression_3.h>
 
 #include <gtest/gtest.h>
 
@@ -20,11 +19,10 @@ using namespace equiaffine::test;
 
 // Sums of bumps whose ball held the whole shape: all degrees left out the same detail, and K was within its error at two
 // thirds of the vertices.
-TEST(Fitted_structures, what_every_degree_leaves_out_is_seen_in_smaller_balls) {
-  const auto bumps = make_analytic_traits<Fit_kernel>(
-      Expression_3("exp(-(x-.5)^2-y^2-z^2)+exp(-(x+.6)^2-(y-.4)^2-z^2)+exp(-x^2-(y+.7)^2-(z-.3)^2)-.45"),
-      CGAL::Bbox_3(-2.5, -2.5, -2.5, 2.5, 2.5, 2.5));
-  const Fit_mesh exact = to_surface_mesh(marching_cubes(bumps, {.resolution = 26}));
+TEST(Fitted_structures_long, what_every_degree_leaves_out_is_seen_in_smaller_balls) {
+  const auto bumps = formula("exp(-(x-.5)^2-y^2-z^2)+exp(-(x+.6)^2-(y-.4)^2-z^2)+exp(-x^2-(y+.7)^2-(z-.3)^2)-.45",
+                             CGAL::Bbox_3(-2.5, -2.5, -2.5, 2.5, 2.5, 2.5));
+  const Fit_mesh exact = to_surface_mesh(surface_of(bumps, {.resolution = 26}));
   const auto points = points_of(exact);
   for (const auto& [noise, least] : {std::pair(0.01, 0.8), std::pair(0.05, 0.9)}) { // without: .61 and .69
     Fit_mesh mesh = exact;
@@ -41,7 +39,7 @@ TEST(Fitted_structures, what_every_degree_leaves_out_is_seen_in_smaller_balls) {
   }
 }
 
-TEST(Fitted_structures, outliers_have_no_curvature_and_spoil_none) {
+TEST(Fitted_structures_long, outliers_have_no_curvature_and_spoil_none) {
   const Fit_mesh exact = metaballs_mesh(40);
   const auto points = points_of(exact);
   Fit_mesh mesh = exact;

@@ -7,6 +7,7 @@
 #include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/fit/Fitted_function_traits_3.h>
 #include <equiaffine/fit/fitted_structures.h>
+#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Aff_transformation_3.h>
 #include <CGAL/Polyhedron_3.h>
@@ -52,7 +53,7 @@ TEST(Fitted_structures_long, points_without_faces_are_as_good_as_a_mesh) {
   EXPECT_LT(of_points.quantile(0.5), 1.2 * of_mesh.quantile(0.5));
 }
 
-TEST(Fitted_structures, noise_of_one_percent_of_an_edge_leaves_K_known_and_the_estimate_says_how_well) {
+TEST(Fitted_structures_long, noise_of_one_percent_of_an_edge_leaves_K_known_and_the_estimate_says_how_well) {
   const Fit_mesh exact = metaballs_mesh(50);
   Fit_mesh mesh = exact;
   add_noise(mesh, 0.01 * mean_edge(mesh));
@@ -77,7 +78,7 @@ TEST(Fitted_structures, noise_that_is_given_counts_as_it_is) {
   }
 }
 
-TEST(Fitted_structures, an_equiaffine_map_of_the_mesh_keeps_affine_curvatures) {
+TEST(Fitted_structures_long, an_equiaffine_map_of_the_mesh_keeps_affine_curvatures) {
   const Fit_mesh mesh = metaballs_mesh(40);
   // Of determinant 1 and condition number 3.
   const double s = std::pow(3., 0.25), c = std::cos(0.5), d = std::sin(0.5);
@@ -106,48 +107,30 @@ TEST(Fitted_structures, any_number_of_threads_gives_the_same_bits) {
   }
 }
 
-/// z = x^2 + y^2 / 2 + x^2 y / 10.
-struct Bowl {
-  auto operator()(const auto& x, const auto& y, const auto& z) const {
-    return z - x * x - 0.5 * y * y - 0.1 * x * x * y;
-  }
-};
+auto bowl() { return formula("z-x^2-.5*y^2-.1*x^2*y", CGAL::Bbox_3(-2, -2, -2, 2, 2, 2)); }
 
-TEST(Fitted_structures, a_jump_of_density_by_ten_leaves_both_sides_with_right_estimates) {
-  const auto bowl = make_analytic_traits<Fit_kernel>(Bowl(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
+double height_of_bowl(double x, double y) { return x * x + 0.5 * y * y + 0.1 * x * x * y; }
+
+TEST(Fitted_structures_long, a_jump_of_density_by_ten_leaves_both_sides_with_right_estimates) {
   std::vector<Fit_kernel::Point_3> points;
   for (double x = -1; x < 1; x += x < 0 ? 0.1 : 0.01)
-    for (double y = -0.5; y < 0.5; y += x < 0 ? 0.1 : 0.01) points.emplace_back(x, y, -Bowl()(x, y, 0.));
+    for (double y = -0.5; y < 0.5; y += x < 0 ? 0.1 : 0.01) points.emplace_back(x, y, height_of_bowl(x, y));
   const auto structures = fitted_structures<CGAL::Parallel_if_available_tag>(points, {.scale = 0});
   double covered = 0, known = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double fitted = structures[i].structure.affine.gaussian_curvature;
     if (!std::isfinite(fitted)) continue;
     ++known;
-    covered += std::abs(fitted - local_structure_at(bowl, points[i]).affine.gaussian_curvature) <=
+    covered += std::abs(fitted - local_structure_at(bowl(), points[i]).affine.gaussian_curvature) <=
                structures[i].error.affine_gaussian_curvature;
   }
   EXPECT_GT(known, 0.9 * double(points.size()));
   EXPECT_GT(covered, 0.93 * known);
 }
 
-/// Closed surfaces about a center of symmetry: of no polynomial, and an ellipsoid.
-struct Symmetric_shape {
-  auto operator()(const auto& x, const auto& y, const auto& z) const {
-    using std::exp;
-    return exp(x * x) + exp(1.5 * y * y) + exp(2.0 * z * z) - 4.0;
-  }
-};
-
-struct Ellipsoid_function {
-  auto operator()(const auto& x, const auto& y, const auto& z) const {
-    return x * x + y * y / 0.64 + z * z / 0.36 - 1.0;
-  }
-};
-
 TEST(Fitted_structures, a_scale_that_holds_a_shape_as_a_whole_or_too_few_points_is_refused) {
-  const auto shape = make_analytic_traits<Fit_kernel>(Symmetric_shape(), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-  const Fit_mesh mesh = to_surface_mesh(marching_cubes(shape, {.resolution = 12}));
+  const auto shape = formula("exp(x^2)+exp(1.5*y^2)+exp(2*z^2)-4", CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  const Fit_mesh mesh = to_surface_mesh(surface_of(shape, {.resolution = 12}));
   for (const double scale : {1.5, 0.1}) {
     try {
       fitted_structures(mesh, {.scale = scale});
@@ -160,9 +143,8 @@ TEST(Fitted_structures, a_scale_that_holds_a_shape_as_a_whole_or_too_few_points_
 }
 
 TEST(Fitted_structures, estimates_cover_the_errors_of_a_small_mesh) {
-  const auto shape =
-      make_analytic_traits<Fit_kernel>(Ellipsoid_function(), CGAL::Bbox_3(-1.1, -1.1, -1.1, 1.1, 1.1, 1.1));
-  const Fit_mesh exact = to_surface_mesh(marching_cubes(shape, {.resolution = 12}));
+  const auto shape = formula("x^2+y^2/.64+z^2/.36-1", CGAL::Bbox_3(-1.1, -1.1, -1.1, 1.1, 1.1, 1.1));
+  const Fit_mesh exact = to_surface_mesh(surface_of(shape, {.resolution = 12}));
   for (const double noise : {0., 0.01}) {
     Fit_mesh mesh = exact;
     add_noise(mesh, noise * mean_edge(mesh));
@@ -283,12 +265,17 @@ TEST(Fitted_function_traits_3, the_blend_is_a_smooth_function_whose_zero_set_has
   EXPECT_LT(errors[errors.size() / 2], 2e-4);
 }
 
+template <class Function>
+auto remeshed(const Function& function, const Marching_cubes_options& options = {}) {
+  return marching_cubes<CGAL::Parallel_if_available_tag>(function, options);
+}
+
 TEST(Fitted_function_traits_3_long, estimates_cover_the_errors_of_the_blend_between_the_data) {
   for (const double noise : {0., 0.01}) {
     Fit_mesh mesh = metaballs_mesh(50);
     add_noise(mesh, noise * mean_edge(mesh));
     const Traits traits(mesh, {.scale = 0});
-    const auto remesh = marching_cubes<CGAL::Parallel_if_available_tag>(traits, {.resolution = 40});
+    const auto remesh = remeshed(traits, {.resolution = 40});
     std::vector<Fitted_structure_3<double>> structures;
     for (const auto& p : remesh.points) structures.push_back(traits.structure(p));
     const auto errors = errors_of_fit(structures, remesh.points);
@@ -302,30 +289,29 @@ TEST(Fitted_function_traits_3_long, estimates_cover_the_errors_of_the_blend_betw
 TEST(Fitted_function_traits_3, a_grid_coarser_than_the_points_needs_a_wider_band) {
   const Traits traits(metaballs_mesh(50), {.scale = 0});
   const Marching_cubes_options options{.resolution = 12};
-  EXPECT_TRUE(marching_cubes(traits, options).triangles.empty());
+  EXPECT_TRUE(remeshed(traits, options).triangles.empty());
   const double diagonal = std::sqrt(3) * traits.bbox().x_span() / 11;
-  const auto surface = marching_cubes(traits.in_band(1.2 * diagonal), options);
+  const auto surface = remeshed(traits.in_band(1.2 * diagonal), options);
   EXPECT_FALSE(surface.triangles.empty());
   EXPECT_TRUE(CGAL::is_closed(to_surface_mesh(surface)));
   for (const auto& p : surface.points) EXPECT_NEAR(metaballs().value(p), 0, 1e-6);
-  EXPECT_EQ(marching_cubes(Without_bounds(traits.in_band(1.2 * diagonal)), options).points, surface.points);
+  EXPECT_EQ(remeshed(Without_bounds(traits.in_band(1.2 * diagonal)), options).points, surface.points);
 }
 
 TEST(Fitted_function_traits_3, the_band_follows_the_surface_where_a_scale_takes_it_away_from_the_data) {
   const Traits traits(metaballs_mesh(40), {.scale = 0.5});
-  const auto surface = marching_cubes<CGAL::Parallel_if_available_tag>(traits, {.resolution = 64});
+  const auto surface = remeshed(traits, {.resolution = 64});
   EXPECT_TRUE(CGAL::is_closed(to_surface_mesh(surface)));
 }
 
 TEST(Fitted_function_traits_3, sparse_data_do_not_spoil_the_blend_of_dense_ones_beside_them) {
-  const auto bowl = make_analytic_traits<Fit_kernel>(Bowl(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
   std::vector<Fit_kernel::Point_3> points;
   for (double x = -1; x < 1; x += x < 0 ? 0.1 : 0.01)
-    for (double y = -0.5; y < 0.5; y += x < 0 ? 0.1 : 0.01) points.emplace_back(x, y, -Bowl()(x, y, 0.));
+    for (double y = -0.5; y < 0.5; y += x < 0 ? 0.1 : 0.01) points.emplace_back(x, y, height_of_bowl(x, y));
   const Traits traits(points, {.scale = 0});
   for (double x = 0.1; x < 0.8; x += 0.03) {
-    const Fit_kernel::Point_3 p(x, 0.005, -Bowl()(x, 0.005, 0.));
-    const double K = local_structure_at(bowl, p).affine.gaussian_curvature;
+    const Fit_kernel::Point_3 p(x, 0.005, height_of_bowl(x, 0.005));
+    const double K = local_structure_at(bowl(), p).affine.gaussian_curvature;
     EXPECT_NEAR(traits.structure(p).structure.affine.gaussian_curvature, K, 1e-4 * std::abs(K)) << x;
   }
 }
@@ -336,7 +322,7 @@ TEST(Fitted_function_traits_3, the_same_function_can_be_sampled_in_another_box) 
   const Traits part = traits.in_box(box);
   EXPECT_EQ(part.bbox(), box);
   EXPECT_NE(traits.bbox(), box);
-  for (const auto& p : marching_cubes(part).points) EXPECT_LE(p.x(), 0);
+  for (const auto& p : remeshed(part).points) EXPECT_LE(p.x(), 0);
 }
 
 TEST(Fitted_function_traits_3, values_are_about_signed_distances_in_the_band_and_undefined_outside) {
@@ -357,14 +343,14 @@ TEST(Fitted_function_traits_3, values_are_about_signed_distances_in_the_band_and
 TEST(Fitted_function_traits_3, marching_cubes_remeshes_the_fitted_surface) {
   const Fit_mesh mesh = metaballs_mesh(30);
   const Traits traits(mesh, {.scale = 0});
-  const auto surface = marching_cubes<CGAL::Parallel_if_available_tag>(traits, {.resolution = 40});
+  const auto surface = remeshed(traits, {.resolution = 40});
   const Fit_mesh remesh = to_surface_mesh(surface);
   EXPECT_TRUE(CGAL::is_closed(remesh));
   EXPECT_EQ(remesh.number_of_vertices() + remesh.number_of_faces(), remesh.number_of_edges() + 2);
   const auto truth = metaballs();
   for (const auto& p : surface.points) EXPECT_NEAR(truth.value(p), 0, 1e-3);
 
-  const auto everywhere = marching_cubes<CGAL::Parallel_if_available_tag>(Without_bounds(traits), {.resolution = 40});
+  const auto everywhere = remeshed(Without_bounds(traits), {.resolution = 40});
   EXPECT_EQ(everywhere.points, surface.points);
   EXPECT_EQ(everywhere.triangles, surface.triangles);
   EXPECT_LT(surface.function_evaluations, everywhere.function_evaluations);

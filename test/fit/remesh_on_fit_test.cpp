@@ -257,7 +257,7 @@ TEST(Remesh_on_fit, edges_longer_than_the_mesh_leave_it_whole) {
   EXPECT_FALSE(pmp::does_self_intersect(mesh));
 }
 
-TEST(Remesh_on_fit, other_meshes_and_point_maps_are_taken) {
+TEST(Remesh_on_fit_long, other_meshes_and_point_maps_are_taken) {
   CGAL::Polyhedron_3<Kernel> polyhedron;
   CGAL::copy_face_graph(torus(20), polyhedron);
   remesh_on_fit(polyhedron, Fit(torus(20), {.scale = 0}));

@@ -7,7 +7,6 @@
 #include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/io/point_files.h>
 #include <equiaffine/io/polygon_mesh_files.h>
-#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Point_set_3.h>
 #include <CGAL/Polyhedron_3.h>
@@ -83,7 +82,7 @@ std::set<std::string> keys(const Surface_mesh& mesh) {
 
 TEST_F(Graph_files, an_annotated_mesh_comes_back_bit_for_bit_under_the_same_names) {
   Surface_mesh mesh, read;
-  marching_cubes(torus(), mesh, {.resolution = 14});
+  CGAL::make_icosahedron(mesh, Point(0.3, 0.2, 0.1), 0.5);
   annotate(mesh, torus());
   mesh.add_property_map<Vertex, int>("v:my count", 7);
   IO::write_polygon_mesh(path("torus.ply"), mesh, parameters::comments(std::array<std::string, 1>{"scale: 0.2"}));
@@ -107,7 +106,7 @@ TEST_F(Graph_files, an_annotated_mesh_comes_back_bit_for_bit_under_the_same_name
 
 TEST_F(Graph_files, vertices_that_were_removed_are_not_written) {
   Surface_mesh mesh, read;
-  marching_cubes(torus(), mesh, {.resolution = 10});
+  CGAL::make_icosahedron(mesh, Point(0.3, 0.2, 0.1), 0.5);
   annotate(mesh, torus());
   CGAL::Euler::remove_center_vertex(halfedge(Vertex(5), mesh), mesh);
   ASSERT_TRUE(mesh.has_garbage());

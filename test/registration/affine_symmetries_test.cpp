@@ -67,7 +67,7 @@ TEST(Affine_symmetries, finite_groups_are_complete_for_originals_and_affine_imag
     }
 }
 
-TEST(Affine_symmetries, a_group_is_complete_where_the_box_cuts_off_images_of_generic_points) {
+TEST(Affine_symmetries_long, a_group_is_complete_where_the_box_cuts_off_images_of_generic_points) {
   for (const std::size_t nodes : {36u, 40u, 46u})
     EXPECT_EQ(symmetries({icosahedral, cube(1.6), 120}, std::nullopt, nodes).order(), 120u) << nodes << " nodes";
 }
@@ -172,7 +172,7 @@ Affine_symmetries_3<Kernel> rigid_symmetries(const Expected& e) {
                                                             {.kind = Map_kind::RIGID});
 }
 
-TEST(Affine_symmetries, a_small_bump_leaves_those_that_keep_it) {
+TEST(Affine_symmetries_long, a_small_bump_leaves_those_that_keep_it) {
   for (const std::string height : {"1e-6", "1e-7"}) {
     const auto result = rigid_symmetries({"x^8+y^8+z^8-1+" + height + "*exp(-30*((x-1)^2+y^2+z^2))", cube(2), 8});
     EXPECT_EQ(result.order(), 8u) << height;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Registration of meshes of planes, as wholes and piece by piece, which needs no curvature.
 #include "support/fit_data.h"
+#include "support/formulas.h"
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
 #include "support/solids.h"
@@ -249,15 +250,11 @@ TEST(Register_meshes_long, a_coarse_scan_of_the_same_object_is_alike_by_the_one_
   };
   Random random(3);
   const Map map = map_of(9.8 * random_rotation(random), Eigen::Vector3d(1, 2, 3));
-  const auto animal = make_analytic_traits<Kernel>(
-      [](const auto& x, const auto& y, const auto& z) {
-        using std::exp;
-        return .5 - exp(-3. * (x * x + 2. * y * y + z * z)) - exp(-6. * (pow(x - .7, 2) + pow(y - .2, 2) + z * z)) -
-               exp(-9. * (pow(x + .6, 2) + y * y + pow(z - .5, 2)));
-      },
+  const auto animal = test::formula(
+      ".5-exp(-3*(x^2+2*y^2+z^2))-exp(-6*((x-.7)^2+(y-.2)^2+z^2))-exp(-9*((x+.6)^2+y^2+(z-.5)^2))",
       CGAL::Bbox_3(-1.5, -1.5, -1.5, 1.5, 1.5, 1.5));
   const auto mesh_with = [](const auto& traits, std::size_t nodes) {
-    return to_surface_mesh(marching_cubes(traits, {.resolution = nodes}));
+    return to_surface_mesh(test::surface_of(traits, {.resolution = nodes}));
   };
   const test::Fit_mesh fine = mesh_with(animal, 50);
   test::Fit_mesh coarse = mesh_with(animal, 20);
@@ -269,9 +266,7 @@ TEST(Register_meshes_long, a_coarse_scan_of_the_same_object_is_alike_by_the_one_
   for (const auto v : fine.vertices())
     EXPECT_LT(std::sqrt(CGAL::squared_distance(found.best().map(fine.point(v)), map(fine.point(v)))), .05 * 9.8);
 
-  const auto ellipsoid = make_analytic_traits<Kernel>(
-      [](const auto& x, const auto& y, const auto& z) { return x * x + y * y / .64 + z * z / .36 - 1.0; },
-      CGAL::Bbox_3(-1.1, -1.1, -1.1, 1.1, 1.1, 1.1));
+  const auto ellipsoid = test::formula("x^2+y^2/.64+z^2/.36-1", CGAL::Bbox_3(-1.1, -1.1, -1.1, 1.1, 1.1, 1.1));
   const test::Fit_mesh smooth = mesh_with(ellipsoid, 12);
   test::Fit_mesh rough = smooth;
   test::add_noise(rough, .015);

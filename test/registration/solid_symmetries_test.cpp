@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Symmetries of solids with faces, edges and corners, which have no curvature to go by, as formulas and as meshes.
+#include "support/formulas.h"
 #include "support/points_on_surface.h"
 #include "support/registration_cases.h"
 #include "support/solids.h"
@@ -295,7 +296,7 @@ TEST(Solid_symmetries_long, short_coordinates_are_what_they_say_unless_many_look
 // The generators are those of finite turns, which move points as far as is said.
 TEST(Solid_symmetries, a_coarse_mesh_of_an_ellipsoid_turns_as_far_from_itself_as_is_said) {
   const Formula formula(Expression_3("x^2+y^2/2+z^2/4-1"), CGAL::Bbox_3(-3, -3, -3, 3, 3, 3));
-  const auto mesh = marching_cubes(formula, {.resolution = 30});
+  const auto mesh = test::surface_of(formula, {.resolution = 30});
   const auto result = affine_symmetries(mesh.points, mesh.triangles);
   ASSERT_EQ(result.continuous.dimension(), 3u);
   const double size = std::sqrt(3.5); // about

@@ -3,11 +3,10 @@
 #ifndef EQUIAFFINE_TEST_SUPPORT_FIT_DATA_H
 #define EQUIAFFINE_TEST_SUPPORT_FIT_DATA_H
 
+#include "support/formulas.h"
 #include <equiaffine/attributes/annotate.h>
 #include <equiaffine/fit/fitted_structures.h>
-#include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/geometry/Local_structure_3.h>
-#include <equiaffine/marching_cubes/marching_cubes.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -26,27 +25,15 @@ using Fit_kernel = CGAL::Simple_cartesian<double>;
 using Fit_mesh = CGAL::Surface_mesh<Fit_kernel::Point_3>;
 
 /// 0.6 = the sum of exp(-4 |p - c|^2) over four centers.
-struct Metaballs {
-  template <class T>
-  T operator()(const T& x, const T& y, const T& z) const {
-    using std::exp;
-    T sum(0.6);
-    for (const auto& c : centers) {
-      const T dx = x - c[0], dy = y - c[1], dz = z - c[2];
-      sum = sum - exp(-4.0 * (dx * dx + dy * dy + dz * dz));
-    }
-    return sum;
-  }
-
-  static constexpr std::array<std::array<double, 3>, 4> centers = {
-      {{0.45, 0, 0}, {-0.45, 0.2, 0}, {0, -0.35, 0.45}, {0.1, 0.45, -0.35}}};
-};
-
-inline auto metaballs() { return make_analytic_traits<Fit_kernel>(Metaballs(), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1)); }
+inline auto metaballs() {
+  return formula("0.6-exp(-4*((x-.45)^2+y^2+z^2))-exp(-4*((x+.45)^2+(y-.2)^2+z^2))"
+                 "-exp(-4*(x^2+(y+.35)^2+(z-.45)^2))-exp(-4*((x-.1)^2+(y-.45)^2+(z+.35)^2))",
+                 CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+}
 
 /// The vertices lie on the surface exactly; `nodes` is the number of nodes of the grid along an axis.
 inline Fit_mesh metaballs_mesh(std::size_t nodes) {
-  return to_surface_mesh(marching_cubes(metaballs(), {.resolution = nodes}));
+  return to_surface_mesh(surface_of(metaballs(), {.resolution = nodes}));
 }
 
 inline std::vector<Fit_kernel::Point_3> points_of(const Fit_mesh& mesh) {

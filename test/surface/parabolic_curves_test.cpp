@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <equiaffine/formula/Expression_3.h>
-#include <equiaffine/function/Analytic_function_traits_3.h>
+#include "support/formulas.h"
 #include <equiaffine/function/expand.h>
 #include <equiaffine/geometry/Local_structure_3.h>
 #include <equiaffine/io/write_curves.h>
-#include <equiaffine/marching_cubes/marching_cubes.h>
 #include <equiaffine/mesh/to_face_graph.h>
 #include <equiaffine/surface/parabolic_curves.h>
 
@@ -22,20 +20,15 @@
 namespace parabolic_curves_test {
 
 using namespace equiaffine;
+using namespace equiaffine::test;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Point_3 = Kernel::Point_3;
 
-struct Torus {
-  auto operator()(const auto& x, const auto& y, const auto& z) const {
-    using std::sqrt;
-    const auto q = sqrt(x * x + y * y) - 0.5;
-    return q * q + z * z - 0.04;
-  }
-};
+auto torus() { return formula("(sqrt(x^2+y^2)-.5)^2+z^2-.04", CGAL::Bbox_3(-.8, -.8, -.3, .8, .8, .3)); }
 
 TEST(Parabolic_curves, those_of_a_torus_are_its_two_highest_circles) {
-  const auto traits = make_analytic_traits<Kernel>(Torus(), CGAL::Bbox_3(-.8, -.8, -.3, .8, .8, .3));
-  const auto curves = parabolic_curves(marching_cubes(traits, {.resolution = 40}), traits);
+  const auto traits = torus();
+  const auto curves = parabolic_curves(surface_of(traits, {.resolution = 40}), traits);
   ASSERT_EQ(curves.polylines.size(), 2u);
   EXPECT_EQ(curves.unconverged_points, 0u);
   for (const auto& line : curves.polylines) {
@@ -52,8 +45,8 @@ TEST(Parabolic_curves, those_of_a_torus_are_its_two_highest_circles) {
 }
 
 TEST(Parabolic_curves, those_of_a_graph_are_those_of_its_triangles) {
-  const auto traits = make_analytic_traits<Kernel>(Torus(), CGAL::Bbox_3(-.8, -.8, -.3, .8, .8, .3));
-  const auto surface = marching_cubes(traits, {.resolution = 40});
+  const auto traits = torus();
+  const auto surface = surface_of(traits, {.resolution = 40});
   const auto expected = parabolic_curves(surface, traits);
   CGAL::Polyhedron_3<CGAL::Exact_predicates_inexact_constructions_kernel> polyhedron;
   to_face_graph(surface, polyhedron);
@@ -70,10 +63,9 @@ TEST(Parabolic_curves, those_of_a_graph_are_those_of_its_triangles) {
 
 TEST(Parabolic_curves, points_are_exact_where_a_curve_crosses_a_line_of_double_zeros) {
   // K is a positive multiple of (12 x^2 - 0.6) y^2: it changes its sign where x is +- sqrt(0.05), and not where y is 0.
-  const auto traits =
-      make_analytic_traits<Kernel>(Expression_3("z-x^4-y^4+.3*x^2-.2"), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  const auto traits = formula("z-x^4-y^4+.3*x^2-.2", CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
   for (const std::size_t nodes : {29, 30, 41}) { // an odd grid has vertices on the line y = 0
-    const auto curves = parabolic_curves(marching_cubes(traits, {.resolution = nodes}), traits);
+    const auto curves = parabolic_curves(surface_of(traits, {.resolution = nodes}), traits);
     EXPECT_EQ(curves.unconverged_points, 0u) << nodes;
     EXPECT_EQ(curves.polylines.size(), 2u) << nodes;
     for (const auto& line : curves.polylines)
@@ -86,8 +78,8 @@ TEST(Parabolic_curves, points_are_exact_where_a_curve_crosses_a_line_of_double_z
 
 TEST(Parabolic_curves, where_the_curvature_is_zero_but_for_rounding_there_are_none) {
   for (const char* text : {"z^2-x^2-y^2", "(x+.3*z)^2+(y-.2*x)^2-.5", "z-sin(x+2*y)"}) {
-    const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-    const auto surface = marching_cubes(traits, {.resolution = 30});
+    const auto traits = formula(text, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+    const auto surface = surface_of(traits, {.resolution = 30});
     EXPECT_TRUE(parabolic_curves(surface, traits).polylines.empty()) << text;
   }
 }
@@ -110,12 +102,8 @@ TEST(Parabolic_curves, the_function_is_the_gaussian_curvature_times_a_power_of_t
 }
 
 TEST(Parabolic_curves, curves_that_cross_end_where_they_do) {
-  const auto wave = [](const auto& x, const auto& y, const auto& z) {
-    using std::sin;
-    return z - sin(x) * sin(y);
-  };
-  const auto traits = make_analytic_traits<Kernel>(wave, CGAL::Bbox_3(-1.1, -1.2, -1, 2.9, 1.3, 1.5));
-  const auto curves = parabolic_curves(marching_cubes(traits, {.resolution = 30}), traits);
+  const auto traits = formula("z-sin(x)*sin(y)", CGAL::Bbox_3(-1.1, -1.2, -1, 2.9, 1.3, 1.5));
+  const auto curves = parabolic_curves(surface_of(traits, {.resolution = 30}), traits);
   int arms = 0;
   for (const auto& line : curves.polylines) {
     EXPECT_FALSE(line.is_closed);
@@ -127,12 +115,8 @@ TEST(Parabolic_curves, curves_that_cross_end_where_they_do) {
 }
 
 TEST(Parabolic_curves, curves_end_where_the_surface_leaves_the_box_and_threads_change_nothing) {
-  const auto wave = [](const auto& x, const auto& y, const auto& z) {
-    using std::sin;
-    return z - 0.3 * sin(3.0 * x) * (1.0 + 0.1 * y * y) - 0.3 * y * y;
-  };
-  const auto traits = make_analytic_traits<Kernel>(wave, CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
-  const auto surface = marching_cubes(traits, {.resolution = 30});
+  const auto traits = formula("z-.3*sin(3*x)*(1+.1*y^2)-.3*y^2", CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
+  const auto surface = surface_of(traits, {.resolution = 30});
   const auto curves = parabolic_curves(surface, traits),
              parallel = parabolic_curves<CGAL::Parallel_if_available_tag>(surface, traits);
   ASSERT_FALSE(curves.polylines.empty());
@@ -145,9 +129,8 @@ TEST(Parabolic_curves, curves_end_where_the_surface_leaves_the_box_and_threads_c
 }
 
 TEST(Parabolic_curves, convex_surfaces_have_none) {
-  const auto sphere = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z - 1.0; };
-  const auto traits = make_analytic_traits<Kernel>(sphere, CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
-  EXPECT_TRUE(parabolic_curves(marching_cubes(traits, {.resolution = 20}), traits).polylines.empty());
+  const auto traits = formula("x^2+y^2+z^2-1", CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
+  EXPECT_TRUE(parabolic_curves(surface_of(traits, {.resolution = 20}), traits).polylines.empty());
 }
 
 TEST(Write_curves, closed_curves_end_with_their_first_point_and_open_ones_do_not) {
