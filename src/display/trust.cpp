@@ -31,7 +31,7 @@ std::vector<double> sizes_of_numbers(const Vertex_attributes::Column& column, co
   Local_structure_3<double> s{};
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     sizes[i] = std::abs(sizes[i]); // if there are no columns to make the size of
-    if (row == nullptr || row->error.get == nullptr) continue;
+    if (row == nullptr || !row->error.exists()) continue;
     s.euclidean.k1 = k1(i);
     s.euclidean.k2 = k2(i);
     s.euclidean.gaussian_curvature = euclidean_K(i);

@@ -37,7 +37,7 @@ struct Fit_statistics {
 
   /// The parts of the points at which an attribute is known. \pre fits estimate its error
   const Parts& known_of(std::string_view attribute) const {
-    CGAL_precondition(find_row(attribute)->error.get != nullptr);
+    CGAL_precondition(find_row(attribute)->error.exists());
     return known[find_row(attribute)->error.place];
   }
 };

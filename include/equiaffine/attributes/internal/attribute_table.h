@@ -114,14 +114,17 @@ struct Quantity {
 /// How fits estimate the error of an attribute, for the column NAME_error of files.
 struct Attribute_error {
   std::size_t place = 0; ///< among the columns of errors; the two that splines have, too, come first
-  double (*get)(const Local_structure_error_3<double>&) = nullptr; ///< null if no error is estimated
+  double (*get)(const Local_structure_error_3<double>&) = nullptr;
   /// Returns the reference magnitude for relative errors. It does not vanish where a curvature merely changes sign.
   double (*size)(const Local_structure_3<double>&) = nullptr;
-  std::string_view name_of_size = {}; ///< as the program writes it
+  std::string_view name_of_size = {}; ///< as the program writes it; empty if no error is estimated
   double power_of_negligible = 0;     ///< of |K_e|, in negligible(); 0 if no error is negligible
 
-  /// Returns an error of an affine curvature that does not matter: 1e-9 of the size that is natural beside K_e. A K
-  /// that is zero is known to within this, but not to within any part of itself.
+  /// Whether an error is estimated. With -fsanitize GCC 12 does not compare pointers to functions at compile time.
+  constexpr bool exists() const { return !name_of_size.empty(); }
+
+  /// Returns an error of an affine curvature that does not matter, or -1 if every error matters: 1e-9 of the size that
+  /// is natural beside K_e. A K that is zero is known to within this, but not to within any part of itself.
   double negligible(double euclidean_gaussian_curvature) const {
     if (power_of_negligible == 0) return -1;
     return 1e-9 * std::pow(std::abs(euclidean_gaussian_curvature), power_of_negligible);
@@ -283,7 +286,7 @@ inline constexpr auto attribute_table = [] {
 
 /// The rows with an error, in the order of the columns with errors.
 inline constexpr auto rows_with_error = [] {
-  constexpr auto has_error = [](const Attribute_row<double>& row) { return row.error.get != nullptr; };
+  constexpr auto has_error = [](const Attribute_row<double>& row) { return row.error.exists(); };
   constexpr auto& all = attribute_table<double>;
   std::array<const Attribute_row<double>*, std::size_t(std::count_if(all.begin(), all.end(), has_error))> rows{};
   for (const auto& row : all)
