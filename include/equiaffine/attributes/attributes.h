@@ -263,6 +263,8 @@ Vertex_attributes compute_attributes(const Traits& traits, const Indexed_triangl
                                      const Attribute_selection& selection,
                                      std::span<const Point_status> sampled_status = {},
                                      const Parameters&... parameters) {
+  internal::check_parameters<internal::Joined_parameters<Parameters...>, internal::Geom_traits_tag,
+                             internal::Verbose_tag>();
   const auto areas = selected_vertex_areas(selection, mesh.points, mesh.triangles);
   return compute_attributes<ConcurrencyTag>(traits, std::span(mesh.points), selection,
                                             Sampled_vertices(sampled_status, areas), parameters...);
