@@ -30,8 +30,8 @@ equiaffine::Expression_3 expression(const char* text, const char* names, const d
 
 } // namespace
 
-/// Meshes the level set of a formula in a box, xmin xmax ymin ymax zmin zmax, with that many nodes per axis, and computes
-/// the attributes in a list.
+/// Meshes the level set of a formula in a box, xmin xmax ymin ymax zmin zmax, with that many nodes per axis, and
+/// computes the attributes in a list.
 EXPORTED int eq_mesh(const char* text, const char* names, const double* values, int count, const double* box, int nodes,
                      double level, const char* attributes) {
   return outcome_of([&] {

@@ -41,7 +41,7 @@ inline Failure failure;
 
 enum Outcome { DONE, MISTAKE, NO_MEMORY, FAILED };
 
-/// Tells JavaScript how far a call is. The benchmark compiles this for the machine, where there is no JavaScript.
+/// Tells JavaScript how far a call is. The benchmark compiles this to native code, where there is no JavaScript.
 inline void report([[maybe_unused]] const equiaffine::Progress_observer::Stage& stage) {
 #ifdef __EMSCRIPTEN__
   EM_ASM(

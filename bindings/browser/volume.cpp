@@ -56,8 +56,8 @@ EXPORTED double* eq_values(int nodes) {
   return values.data();
 }
 
-/// Takes the values as those of a lattice of nx, ny, nz nodes; `placing` is its origin and its three steps. Smoothing is a
-/// scale in steps, 0 for none.
+/// Takes the values as those of a lattice of nx, ny, nz nodes; `placing` is its origin and its three steps. Smoothing
+/// is a scale in steps, 0 for none.
 EXPORTED int eq_volume(int nx, int ny, int nz, const double* placing, double smoothing) {
   return outcome_of([&] {
     const auto vector = [&](int k) { return Kernel::Vector_3(placing[3 * k], placing[3 * k + 1], placing[3 * k + 2]); };

@@ -24,12 +24,14 @@ using Points_array = py::array_t<double, py::array::c_style>;
 using Faces_array = py::array_t<std::int64_t, py::array::c_style>;
 using Status_array = py::array_t<std::uint8_t, py::array::c_style>;
 
-/// Points, triangles, columns and statuses, copied from arrays: these may change while the library computes. Throws for a
-/// triangle with a point that there is not, for columns and statuses of another length, and for a status that is none.
+/// Points, triangles, columns and statuses, copied from arrays: these may change while the library computes. Throws for
+/// a triangle with a point that there is not, for columns and statuses of another length, and for a status that is
+/// none.
 Annotated_mesh_3<Kernel> mesh_of(const Points_array& points, const Faces_array& faces, const py::dict& columns,
                                  const std::optional<Status_array>& status, std::vector<std::string> comments);
 
-/// Samples in an array of three dimensions of any type of numbers of this machine, with any strides, which it keeps alive.
+/// Samples in an array of three dimensions of any numeric type in native byte order, with any strides, which it keeps
+/// alive.
 class Volume_array {
 public:
   /// `steps` has the step along each axis of the array in its rows.

@@ -58,9 +58,10 @@ auto with_threads([[maybe_unused]] std::optional<std::size_t> threads, const Com
   return compute();
 }
 
-/// Calls `compute(progress)` without the lock, and what it returns with it. A signal, as of Ctrl-C, ends the computation,
-/// as does an exception of the `progress` function, which is called with the number of a stage, the steps that are done,
-/// and all of them. Warnings of the program become those of Python, where the function of the module was called.
+/// Calls `compute(progress)` without the lock, and what it returns with it. A signal, as of Ctrl-C, ends the
+/// computation, as does an exception of the `progress` function, which is called with the number of a stage, the steps
+/// that are done, and all of them. Warnings of the program become those of Python, where the function of the module was
+/// called.
 template <class Compute>
 auto observed(const py::object& progress_function, std::optional<std::size_t> threads, const Compute& compute) {
   if (!progress_function.is_none() && !PyCallable_Check(progress_function.ptr()))

@@ -29,8 +29,8 @@ struct Preimage {
   }
 };
 
-/// Calls at(local, p) for the preimage p of every point: `local` is the estimator, which may be restricted to cells around
-/// p.
+/// Calls at(local, p) for the preimage p of every point: `local` is the estimator, which may be restricted to cells
+/// around p.
 template <class Estimator, class At>
 auto at_points(const Estimator& estimator, std::span<const Kernel::Point_3> images, const Preimage& preimage,
                Progress& progress, const At& at) {

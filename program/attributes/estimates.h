@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The estimated errors of attributes at points of a source, and the columns that hold them.
 #ifndef EQUIAFFINE_PROGRAM_ATTRIBUTES_ESTIMATES_H
 #define EQUIAFFINE_PROGRAM_ATTRIBUTES_ESTIMATES_H
 

@@ -13,8 +13,8 @@
 
 namespace equiaffine {
 
-/// Reads options into a request, by their rows in the table. Only the first error is reported, so the order of the calls
-/// matters to users.
+/// Reads options into a request, by their rows in the table. Only the first error is reported, so the order of the
+/// calls matters to users.
 class Option_reader {
 public:
   explicit Option_reader(const Command_line& line) : line_(line) {

@@ -36,8 +36,8 @@ std::vector<const Option_row*> options_of(Command command) {
 
 namespace {
 
-/// Writes help with our own usage lines, which are part of the descriptions, and with the lines of texts as they are: the
-/// formatters of CLI11 break them, and differ from version to version.
+/// Writes help with our own usage lines, which are part of the descriptions, and with the lines of texts as they are:
+/// the formatters of CLI11 break them, and differ from version to version.
 class Help_formatter : public CLI::FormatterBase {
 public:
   std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const override {

@@ -30,8 +30,8 @@ inline constexpr Commands registering = REGISTER | SYMMETRIES;
 /// command_line.cpp has them.
 enum class Option_group { INPUT, SOURCE, BOX, FIT, SURFACE, SAMPLING, MARCHING_CUBES, DELAUNAY, REMESH, MAPS, OUTPUT };
 
-/// Whether the options of the group belong to the source or to its surface. Others of `register`, which has two sources,
-/// may stand on either side of the word `to`.
+/// Whether the options of the group belong to the source or to its surface. Others of `register`, which has two
+/// sources, may stand on either side of the word `to`.
 inline bool belongs_to_source(Option_group group) {
   return group != Option_group::MAPS && group != Option_group::OUTPUT;
 }

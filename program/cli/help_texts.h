@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The texts above and below the list of options in the help of the program and of its commands. The first line of a
+// command's description is also its line in the help of the program.
 #ifndef EQUIAFFINE_PROGRAM_CLI_HELP_TEXTS_H
 #define EQUIAFFINE_PROGRAM_CLI_HELP_TEXTS_H
 
 namespace equiaffine {
-
-// The texts above and below the list of options in the help of the program and of its commands. The first line of a
-// command's description is also its line in the help of the program.
 
 inline constexpr const char* program_description =
     R"(equiaffine - affine curvatures of implicit surfaces

@@ -127,7 +127,7 @@ CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& opti
   if (!(std::abs(CGAL::determinant(n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8])) > rounding))
     fail_option(name, "the matrix is singular", "give a matrix with an inverse, row by row");
   if (!std::isnormal(CGAL::determinant(m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8])))
-    fail_option(name, "the determinant is too large or too small for a number of the computer", "choose another unit");
+    fail_option(name, "the determinant overflows or underflows double precision", "choose another unit");
   return {m[0], m[1], m[2], t[0], m[3], m[4], m[5], t[1], m[6], m[7], m[8], t[2]};
 }
 

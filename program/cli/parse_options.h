@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Turns the words of a command line into the request that a command executes.
 #ifndef EQUIAFFINE_PROGRAM_CLI_PARSE_OPTIONS_H
 #define EQUIAFFINE_PROGRAM_CLI_PARSE_OPTIONS_H
 

@@ -25,8 +25,8 @@ namespace equiaffine {
 
 namespace {
 
-/// Work that one of the threads that TBB may use does while this thread goes on. Where there are no others, it is done at
-/// once or by wait().
+/// Work that one of the threads that TBB may use does while this thread goes on. Where there are no others, it is done
+/// at once or by wait().
 class Background_work {
 public:
   Background_work() = default;

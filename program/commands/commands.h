@@ -43,8 +43,8 @@ void run_view(const Request& options, std::ostream& out);
 Vertex_attributes evaluate_points(const Request& options, const Source& source,
                                   const Indexed_triangle_mesh_3<Kernel>& at, Progress& progress);
 
-/// Writes the page and the picture that are asked for of a mesh of that name, and returns them. Throws `Input_error`, also
-/// for a mesh without faces, and for an attribute that it has not.
+/// Writes the page and the picture that are asked for of a mesh of that name, and returns them. Throws `Input_error`,
+/// also for a mesh without faces, and for an attribute that it has not.
 Outputs show(const Annotated_mesh_3<Kernel>& surface, const std::string& name, const Request& options);
 
 } // namespace equiaffine

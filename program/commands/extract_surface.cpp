@@ -73,8 +73,8 @@ double size_at(const Any_function_3& f, const Kernel::Point_3& p) {
   return std::isnan(size) ? std::numeric_limits<double>::infinity() : size;
 }
 
-/// A place near p where |f| is least: a search in steps along the axes that become shorter, within the box of f. Along
-/// a curved valley it would take as many steps as it likes, and ends.
+/// A place near p where |f| is least: a search in steps along the axes that become shorter, within the box of f. It
+/// ends after `most_rounds`, since along a curved valley steps would hardly become shorter.
 Kernel::Point_3 least_near(const Any_function_3& f, Kernel::Point_3 p) {
   constexpr double first_step = 1. / 32, shortest_step = 1e-12; // in sides of the box
   constexpr int most_rounds = 2000;

@@ -56,8 +56,8 @@ void check_radius_of_delaunay_surface(const CGAL::Bbox_3& box, double radius) {
   throw Input_error(text.str());
 }
 
-/// Says how long a stage will take that calls `run(options)` for the grid of the source, if that is minutes. It is called
-/// for coarser grids here.
+/// Says how long a stage will take that calls `run(options)` for the grid of the source, if that is minutes. It is
+/// called for coarser grids here.
 template <class Run>
 void announce_duration_on_grid(const std::string& stage, const Source_options& options, Progress& progress,
                                const Run& run) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Makes the surface of a source with its attributes, for every command that writes or shows a surface.
 #ifndef EQUIAFFINE_PROGRAM_COMMANDS_MAKE_SURFACE_H
 #define EQUIAFFINE_PROGRAM_COMMANDS_MAKE_SURFACE_H
 
@@ -52,8 +53,8 @@ Made_surface make_surface(const Request& options, Progress& progress,
                           Attribute_time time = Attribute_time::WITH_SURFACE);
 
 /// Computes distances from the surface, and the attributes that files have, for blocks of vertices one after the other;
-/// the statistics count the status in any case. Calls visit(first, attributes) with the number of the first vertex of each
-/// block.
+/// the statistics count the status in any case. Calls visit(first, attributes) with the number of the first vertex of
+/// each block.
 void for_each_attribute_block(const Source& source, const Request& options, Annotated_surface& surface,
                               std::size_t vertices_of_block,
                               const std::function<void(std::size_t, Vertex_attributes&&)>& visit);
@@ -74,8 +75,8 @@ struct Remeshed_fit {
   Remesh_statistics statistics;
 };
 
-/// Remeshes the data of a fit as remesh_by_fit() does. If that chooses a smaller scale, `source` becomes the fit at that
-/// scale. Throws `Input_error` if the data have no faces, or if they are no mesh.
+/// Remeshes the data of a fit as remesh_by_fit() does. If that chooses a smaller scale, `source` becomes the fit at
+/// that scale. Throws `Input_error` if the data have no faces, or if they are no mesh.
 Remeshed_fit remesh_fit(Source& source, const Source_options& options, const Remesh_options& how, Progress& progress);
 
 } // namespace equiaffine

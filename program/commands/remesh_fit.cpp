@@ -40,8 +40,8 @@ double greatest_distance(const std::vector<double>& distances, const std::vector
   return greatest;
 }
 
-/// Replaces the mesh of the data of a source by its remesh. The source becomes a fit at a smaller scale if that suits the
-/// shape better.
+/// Replaces the mesh of the data of a source by its remesh. The source becomes a fit at a smaller scale if that suits
+/// the shape better.
 Fit_remesh_report remesh(Mesh& mesh, const Outcomes& outcomes, Source& source, const Source_options& options,
                          Remesh_options how, Progress& progress) try {
   how.feature_angle = options.fit.feature_angle;

@@ -53,8 +53,8 @@ public:
   /// Ends writing to all files but that of the statistics, which tell how long it took.
   void close_results();
 
-  /// Ends writing and puts all files in place. Throws `Input_error` if one could not be stored, and then leaves what was
-  /// there.
+  /// Ends writing and puts all files in place. Throws `Input_error` if one could not be stored, and then leaves what
+  /// was there.
   void commit();
 
   /// Whether one of them is standard output, where nothing else may be written then.
@@ -81,8 +81,8 @@ void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mes
 /// Throws `Input_error` unless `write_vertices` knows the extension of the path, or it is "-".
 void check_vertices_output(const std::string& path);
 
-/// Writes a mesh or points as they came with more attributes in the format of the path's extension, CSV for "-", without
-/// committing. Computed columns replace those of the same name.
+/// Writes a mesh or points as they came with more attributes in the format of the path's extension, CSV for "-",
+/// without committing. Computed columns replace those of the same name.
 void write_vertices(Output_file& file, const Point_table_3<Kernel>& table, const Vertex_attributes& attributes);
 
 /// Throws `Input_error` unless `write_curves` knows the extension of the path, or it is "-".

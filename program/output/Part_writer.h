@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Writes meshes part by part, so that the attributes of a large mesh are never all in memory.
 #ifndef EQUIAFFINE_PROGRAM_OUTPUT_PART_WRITER_H
 #define EQUIAFFINE_PROGRAM_OUTPUT_PART_WRITER_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The beginning and the text of the JSON objects that the program writes.
 #ifndef EQUIAFFINE_PROGRAM_OUTPUT_JSON_TEXT_H
 #define EQUIAFFINE_PROGRAM_OUTPUT_JSON_TEXT_H
 

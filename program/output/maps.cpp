@@ -89,8 +89,8 @@ std::string completeness_text(const Symmetries& symmetries) {
   return "all rotations were tried that may move it to within " + part_text(*symmetries.complete_to) + '\n';
 }
 
-/// ", along and about (0, 0, 1)": the axis of one or two rigid motions, one of which may be a screw; nothing for others. `size` is that of the
-/// surface.
+/// ", along and about (0, 0, 1)": the axis of one or two rigid motions, one of which may be a screw; nothing for
+/// others. `size` is that of the surface.
 std::string axis_text(const Affine_slippage_3& slippage, double size) {
   constexpr double least = 0.05; // of a rotation or a translation beside the other, as fits have errors
   const std::size_t dimension = slippage.dimension();
@@ -164,7 +164,7 @@ std::string overlap_text(const Registered_map_3<Kernel>& map) {
 }
 
 std::string contradictions_text(const Registered_map_3<Kernel>& map) {
-  constexpr double least = 1e-3; // more than a few of thousands of points
+  constexpr double least = 1e-3; // of all points: fewer are not reported
   if (!map.contradictions || std::max(map.contradictions->at(0), map.contradictions->at(1)) < least) return "";
   std::ostringstream text;
   text.precision(2);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The results of `register` and `symmetries` as JSON, as a summary, and as phrases for pages and pictures.
 #ifndef EQUIAFFINE_PROGRAM_OUTPUT_MAPS_H
 #define EQUIAFFINE_PROGRAM_OUTPUT_MAPS_H
 

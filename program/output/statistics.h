@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The facts about surfaces and fits that the program reports, as JSON and as a summary.
 #ifndef EQUIAFFINE_PROGRAM_OUTPUT_STATISTICS_H
 #define EQUIAFFINE_PROGRAM_OUTPUT_STATISTICS_H
 
@@ -63,8 +64,8 @@ struct Annotation_statistics : Mesh_facts {
 
 std::array<std::size_t, number_of_point_statuses> count(std::span<const Point_status> status);
 
-/// "K 64 / 89, H 54 / 81, ...": at how many percent of the points each of `affine_quantities` is known to 20 and to 50 %,
-/// and of what these are parts.
+/// "K 64 / 89, H 54 / 81, ...": at how many percent of the points each of `affine_quantities` is known to 20 % and to
+/// 50 %, and of what these are parts.
 std::string table_of_known(const Fit_statistics& fit);
 
 /// One object, see the section on statistics of doc/program.md. A distance that is not a finite number is null.

@@ -37,8 +37,8 @@ struct Screen_point {
 /// A white picture on which what is nearer hides what is behind it, in any order of drawing. Every pixel is the mean of
 /// 3 x 3 samples. No display, graphics processor or thread is involved: the same bytes everywhere.
 ///
-/// A canvas may be a band of the rows of a larger picture: bands need less memory, one after the other, and have the same
-/// bytes as the whole.
+/// A canvas may be a band of the rows of a larger picture: bands need less memory, one after the other, and have the
+/// same bytes as the whole.
 class Canvas {
 public:
   /// Has the rows from `first_row` on.

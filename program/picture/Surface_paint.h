@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The colors of a surface in a picture, and the notes and numbers that explain them.
 #ifndef EQUIAFFINE_PROGRAM_PICTURE_SURFACE_PAINT_H
 #define EQUIAFFINE_PROGRAM_PICTURE_SURFACE_PAINT_H
 
@@ -53,9 +54,9 @@ public:
   const std::vector<Color_note>& notes() const { return notes_; }
 
   /// The color at barycentric weights, as on the page: vertices with a number compete by their weights with those that
-  /// have none, of each status; the number is interpolated between the vertices that have one. A number that does not exist on a
-  /// parabolic curve is interpolated on each side of it from the vertices of that side only. Colors are grayer where the
-  /// estimated error is larger.
+  /// have none, of each status; the number is interpolated between the vertices that have one. A number that does not
+  /// exist on a parabolic curve is interpolated on each side of it from the vertices of that side only. Colors are
+  /// grayer where the estimated error is larger.
   Light operator()(const std::array<std::uint32_t, 3>& triangle, const std::array<double, 3>& weights) const;
 
   /// The sides of the vertices (`Parabolic_parts::sides`), if the number does not exist where the Gaussian curvature

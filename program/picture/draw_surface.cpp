@@ -71,8 +71,8 @@ std::vector<Vector> vertex_normals(const Indexed_triangle_mesh_3<Kernel>& mesh, 
   return normals;
 }
 
-/// The normals by which the corners of triangles are lit: where a triangle bends away from the normal of a corner, as at a
-/// crease, the mean over the triangles there that do not bend away from it.
+/// The normals by which the corners of triangles are lit: where a triangle bends away from the normal of a corner, as
+/// at a crease, the mean over the triangles there that do not bend away from it.
 std::vector<std::array<Vector, 3>> corner_normals(const Indexed_triangle_mesh_3<Kernel>& mesh,
                                                   const std::vector<Vector>& normals) {
   const double greatest_bend = std::cos(40 * std::numbers::pi / 180);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Draws the picture of a surface as its page first shows it, and writes it as a PNG file.
 #ifndef EQUIAFFINE_PROGRAM_PICTURE_DRAW_SURFACE_H
 #define EQUIAFFINE_PROGRAM_PICTURE_DRAW_SURFACE_H
 
@@ -38,8 +39,9 @@ Surface_picture draw_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
                              const Display_options& options, std::span<const Surface_note> notes = {},
                              std::span<const Polyline_3<Kernel>> curves = {});
 
-/// Guesses which axis of a scan points up: y, as in most files of scans, unless the shape stands along z. It does if the
-/// convex hull of its lowest points along z covers a tenth of its box or more, and twice the part that they cover along y.
+/// Guesses which axis of a scan points up: y, as in most files of scans, unless the shape stands along z. It does if
+/// the convex hull of its lowest points along z covers a tenth of its box or more, and twice the part that they cover
+/// along y.
 std::array<double, 3> natural_up(const std::vector<Kernel::Point_3>& points);
 
 /// Writes the picture, with a bar of its colors in the lower left corner if they are those of a number, as a PNG file.

@@ -67,8 +67,8 @@ double place_on_bar(double number, const Color_mapping& mapping) {
   return mapping.range.is_diverging ? (t + 1) / 2 : t;
 }
 
-/// Numbers with their places on the bar: equal parts of a linear one, else round numbers a `most`-th of the bar apart or
-/// more, the greatest first, or the ends where there are less than two.
+/// Numbers with their places on the bar: equal parts of a linear one, else round numbers a `most`-th of the bar apart
+/// or more, the greatest first, or the ends where there are less than two.
 std::vector<std::pair<double, double>> ticks(const Color_mapping& mapping, std::size_t most) {
   const auto& [lower, upper, knee, is_diverging] = mapping.range;
   std::vector<std::pair<double, double>> result;

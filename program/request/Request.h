@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The request that a command line makes: a command and the values of all options.
 #ifndef EQUIAFFINE_PROGRAM_REQUEST_OPTIONS_H
 #define EQUIAFFINE_PROGRAM_REQUEST_OPTIONS_H
 

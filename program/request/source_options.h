@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The options of a source: what it is, how it is read, and how it becomes a function.
 #ifndef EQUIAFFINE_PROGRAM_REQUEST_SOURCE_OPTIONS_H
 #define EQUIAFFINE_PROGRAM_REQUEST_SOURCE_OPTIONS_H
 

@@ -20,8 +20,8 @@ namespace equiaffine {
 /// Throws `Input_error`: "cannot read the mesh 'path': reason; advice".
 [[noreturn]] void fail_to_read_mesh(const std::string& path, const std::string& reason, const std::string& advice);
 
-/// Makes a mesh of the triangles in a file: they get a common orientation, and equal points become one unless the surface
-/// is closed without. Throws `Input_error` if they are no surface, or a coordinate is not finite.
+/// Makes a mesh of the triangles in a file: they get a common orientation, and equal points become one unless the
+/// surface is closed without. Throws `Input_error` if they are no surface, or a coordinate is not finite.
 CGAL::Surface_mesh<Kernel::Point_3> to_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const std::string& path);
 
 /// The triangles of a mesh, turned to a common orientation; as they are if there is none without new points.
@@ -42,8 +42,8 @@ Point_table_3<Kernel> read_vertices(const Source_options& source);
 /// Whether points have colors in columns without names, where one might expect normals.
 bool have_colors(const Annotated_mesh_3<Kernel>& points);
 
-/// Throws `Input_error` if there are no points, a coordinate is not finite, or the unit is extreme. `name` stands for where
-/// they come from.
+/// Throws `Input_error` if there are no points, a coordinate is not finite, or the unit is extreme. `name` stands for
+/// where they come from.
 void check_vertices(const std::vector<Kernel::Point_3>& points, const std::string& name);
 
 } // namespace equiaffine

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Makes the function of a source, with the facts about its samples or data that the program reports.
 #ifndef EQUIAFFINE_PROGRAM_SOURCE_SOURCE_H
 #define EQUIAFFINE_PROGRAM_SOURCE_SOURCE_H
 
@@ -39,8 +40,8 @@ struct Source {
   Indexed_triangle_mesh_3<Kernel> data = {};      ///< of a fit, not transformed
 };
 
-/// Makes the function. This may include reading a volume, measuring distances, and fitting a spline. A fit has values for
-/// Delaunay facets of that radius. Throws `Input_error`.
+/// Makes the function. This may include reading a volume, measuring distances, and fitting a spline. A fit has values
+/// for Delaunay facets of that radius. Throws `Input_error`.
 Source make_source(const Source_options& options, Progress& progress, double radius = 0);
 
 /// The source of a fit that was made before, to those data.

@@ -68,8 +68,8 @@ private:
 std::vector<Fitted_structure_3<double>> fit_vertices(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options,
                                                      Orientation_of_level_set orientation);
 
-/// Returns the part of points without faces whose normal, from the columns nx, ny, nz, is opposed to that of the nearest
-/// other point; 0 without normals.
+/// Returns the part of points without faces whose normal, from the columns nx, ny, nz, is opposed to that of the
+/// nearest other point; 0 without normals.
 double part_with_opposed_normals(const Annotated_mesh_3<Kernel>& mesh);
 
 /// Blends polynomials fitted to the vertices of a mesh or to points, with all threads, into one function.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Warnings about samples and fits whose results may not be what the user expects.
 #ifndef EQUIAFFINE_PROGRAM_SOURCE_WARNINGS_H
 #define EQUIAFFINE_PROGRAM_SOURCE_WARNINGS_H
 
@@ -16,8 +17,8 @@
 namespace equiaffine {
 
 /// Warns of points outside the samples where the reason is one that the user would not expect: a narrow band, fewer
-/// nodes than a spline needs, or points away from the data of a fit. `outside` of `all` points are; `points` is the word
-/// for them, such as "vertices".
+/// nodes than a spline needs, or points away from the data of a fit. `outside` of `all` points are; `points` is the
+/// word for them, such as "vertices".
 void warn_of_outside(const Source_options& options, const Source& source, std::size_t outside, std::size_t all,
                      const std::string& points, Progress& progress);
 

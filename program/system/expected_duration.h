@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Predicts how long a computation will take from coarser runs of it, and announces it if that is minutes.
 #ifndef EQUIAFFINE_PROGRAM_SYSTEM_EXPECTED_DURATION_H
 #define EQUIAFFINE_PROGRAM_SYSTEM_EXPECTED_DURATION_H
 
@@ -16,11 +17,11 @@ namespace equiaffine {
 inline constexpr double least_fineness_to_measure = 200;
 
 /// The seconds that a computation will take at a fineness n, such as the nodes of a grid along an axis. They are about
-/// c + a n^2 + b n^3, since some of it is done per cell, some per cell beside the surface, and some once. This follows from
-/// the last three of `seconds_of(k)` at k = 16, 32, 64, ..., until that takes some tenths of a second more than at first, or
-/// k is half of n. If, from k = 64 on, even twice the time that would follow from the highest power alone is below
-/// `of_interest`, that is returned, and no finer k is tried. Returns 0 where 16 or 32 take so long that more of them would
-/// keep the user waiting.
+/// c + a n^2 + b n^3, since some of it is done per cell, some per cell beside the surface, and some once. This follows
+/// from the last three of `seconds_of(k)` at k = 16, 32, 64, ..., until that takes some tenths of a second more than at
+/// first, or k is half of n. If, from k = 64 on, even twice the time that would follow from the highest power alone is
+/// below `of_interest`, that is returned, and no finer k is tried. Returns 0 where 16 or 32 take so long that more of
+/// them would keep the user waiting.
 template <class Seconds>
 double expected_seconds(double n, bool is_cubic, double of_interest, const Seconds& seconds_of) {
   constexpr double enough = 0.2, too_long = 1, coarsest = 16;

@@ -25,8 +25,8 @@ void give_back_reclaimable_memory();
 /// Begins without any range, in a child process, whose parent had them.
 void forget_reclaimable_memory();
 
-/// The bytes of a file, which the system reads when they are first looked at, and may forget; where a file system cannot do
-/// that, they are read at once. A file that is cut short meanwhile ends the process by SIGBUS.
+/// The bytes of a file, which the system reads when they are first looked at, and may forget; where a file system
+/// cannot do that, they are read at once. A file that is cut short meanwhile ends the process by SIGBUS.
 class Mapped_file {
 public:
   /// Throws `std::bad_alloc` for a file that is read and does not fit into memory.
@@ -64,8 +64,8 @@ double room_for_scratch_memory();
 /// The folder has no room for the scratch memory that was to be allocated.
 class No_room_for_scratch_memory : public std::bad_alloc {};
 
-/// Says, in a sentence to which other advice may be added, that there was no room for what was to be allocated; is empty
-/// if there always was. It is also for those who do not know what others made of the exception.
+/// Says, in a sentence to which other advice may be added, that there was no room for what was to be allocated; is
+/// empty if there always was. It is also for those who do not know what others made of the exception.
 std::string lack_of_room_for_scratch_memory();
 
 /// Returns memory that need not be zero. Throws `No_room_for_scratch_memory`, or `std::bad_alloc` where that much is

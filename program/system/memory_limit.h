@@ -29,8 +29,8 @@ void check_memory_of_surface(const std::array<std::size_t, 3>& resolution, Memor
 
 /// Bounds the resident memory of this process, together with that of its children, until it ends. Large arrays that do
 /// not fit are in scratch memory, in a file in that folder. A thread gives the pages of these and of mapped files back
-/// whenever the limit is near; where that is not enough, it ends the process with a sentence. Throws `Input_error` if so
-/// few bytes cannot do for any command, or the folder cannot have scratch memory.
+/// whenever the limit is near; where that is not enough, it ends the process with a sentence. Throws `Input_error` if
+/// so few bytes cannot do for any command, or the folder cannot have scratch memory.
 void limit_resident_memory(std::size_t bytes, const std::filesystem::path& folder);
 
 bool is_resident_memory_limited();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Shows the progress of long computations and measures their time.
 #ifndef EQUIAFFINE_PROGRAM_SYSTEM_PROGRESS_H
 #define EQUIAFFINE_PROGRAM_SYSTEM_PROGRESS_H
 
@@ -54,8 +55,8 @@ private:
   bool is_shown_ = false, is_announced_ = false;
 };
 
-/// Says what a long computation is doing. On a terminal a line appears after a second and is wiped away at the end; where
-/// there is no terminal a line is written every ten seconds. Warnings follow it.
+/// Says what a long computation is doing. On a terminal a line appears after a second and is wiped away at the end;
+/// where there is no terminal a line is written every ten seconds. Warnings follow it.
 class Progress {
 public:
   using Clock = Progress_report::Clock;

@@ -88,8 +88,8 @@ public:
 
   Lattice_3<Kernel> lattice();
 
-  /// The samples, where they are. A file must not be cut short as long as there is a copy of the view. Throws `Input_error`
-  /// about the volume `path` if the samples are in a file and no longer there.
+  /// The samples, where they are. A file must not be cut short as long as there is a copy of the view. Throws
+  /// `Input_error` about the volume `path` if the samples are in a file and no longer there.
   Volume_view_3<Kernel> view(const std::string& path);
 
 private:

@@ -22,8 +22,8 @@ struct Data_files {
   bool are_understood = true;     ///< a pattern of names may be none
 };
 
-/// The files that the content of a field names with the lines after it: a list, a pattern such as slice%03d.raw with the
-/// first and the last number and the step, or one file. `sizes` are those of a MetaImage along its axes, or none.
+/// The files that the content of a field names with the lines after it: a list, a pattern such as slice%03d.raw with
+/// the first and the last number and the step, or one file. `sizes` are those of a MetaImage along its axes, or none.
 Data_files data_files_in(std::string_view content, std::string_view following_lines,
                          const std::vector<std::size_t>& sizes);
 

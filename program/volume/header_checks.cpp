@@ -137,8 +137,8 @@ std::streamoff end_of_appended_data(std::ifstream& file) {
   return end == std::string::npos ? 0 : begin + std::streamoff(end);
 }
 
-/// Checks that arrays among the appended data, which begin at `begin`, end before these do. VTK returns memory without a
-/// value for the others.
+/// Checks that arrays among the appended data, which begin at `begin`, end before these do. VTK returns memory without
+/// a value for the others.
 void check_appended_arrays(const std::string& path, std::ifstream& file, bool is_raw, const Length_format& format,
                            const std::vector<std::streamoff>& places) {
   constexpr std::size_t longest_length = 12; // 8 bytes in base64

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Reads the beginnings of volume files, also of compressed ones, and splits the text of headers into fields and
+// numbers.
 #ifndef EQUIAFFINE_PROGRAM_VOLUME_HEADER_TEXT_H
 #define EQUIAFFINE_PROGRAM_VOLUME_HEADER_TEXT_H
 

@@ -10,9 +10,9 @@
 
 namespace equiaffine {
 
-/// The text of an ITK exception in parentheses, without the places in ITK and the libraries below it where it was found:
-/// the last line, after "): " and after "[library] function: ". The text is empty for "Reason: ", with which MetaImage
-/// introduces the last error of the system, whatever that was about.
+/// The text of an ITK exception in parentheses, without the places in ITK and the libraries below it where it was
+/// found: the last line, after "): " and after "[library] function: ". The text is empty for "Reason: ", with which
+/// MetaImage introduces the last error of the system, whatever that was about.
 std::string reason_of(const itk::ExceptionObject& exception);
 
 /// All nodes of an image.

@@ -29,8 +29,8 @@ void read_vti_volume(const std::string& path, Samples_in where, const Volume_sel
 void read_nifti_volume(const std::string& path, Samples_in where, const Volume_selection& selection,
                        Shared_volume& volume);
 
-/// Reads the frames of a DICOM file, or of all files in a folder, which are one series. The places of the frames make the
-/// lattice, in whatever order they are.
+/// Reads the frames of a DICOM file, or of all files in a folder, which are one series. The places of the frames make
+/// the lattice, in whatever order they are.
 void read_dicom_volume(const std::string& path, const Volume_selection& selection, Shared_volume& volume);
 
 void write_itk_volume(const std::string& path, Volume_format format, const Volume_3<Kernel>& volume, bool as_float);

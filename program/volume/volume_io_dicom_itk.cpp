@@ -212,8 +212,9 @@ bool ends_early(const gdcm::Reader& reader, const std::string& file, const Dicom
   return error || bytes - double(reader.GetStreamCurrentPosition()) < pixels * samples.GetValue() * bits.GetValue() / 8;
 }
 
-/// Reads the header of a file in DICOM's format; returns nothing for a file in another one, or without an image. The volume
-/// `path` is for messages. Throws `Input_error` for a damaged header, and if it does not say where its frames lie.
+/// Reads the header of a file in DICOM's format; returns nothing for a file in another one, or without an image. The
+/// volume `path` is for messages. Throws `Input_error` for a damaged header, and if it does not say where its frames
+/// lie.
 std::optional<Dicom_header> read_dicom_header(const std::string& path, const std::string& file) {
   gdcm::Reader reader;
   reader.SetFileName(file.c_str());

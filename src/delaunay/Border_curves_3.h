@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Traces the curves in which a surface meets the border of a clip domain, so that the mesh follows them.
 #ifndef EQUIAFFINE_SRC_DELAUNAY_BORDER_CURVES_3_H
 #define EQUIAFFINE_SRC_DELAUNAY_BORDER_CURVES_3_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Inserts the initial points into the triangulation, and makes an oriented triangle mesh of its facets.
 #ifndef EQUIAFFINE_SRC_DELAUNAY_FACET_MESH_H
 #define EQUIAFFINE_SRC_DELAUNAY_FACET_MESH_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The curves on a surface that the mesh follows: given ones, parabolic curves, and those where the surface ends.
 #ifndef EQUIAFFINE_SRC_DELAUNAY_FEATURE_CURVE_3_H
 #define EQUIAFFINE_SRC_DELAUNAY_FEATURE_CURVE_3_H
 

@@ -132,8 +132,8 @@ namespace equiaffine::internal {
 /// The topology that the facets must have.
 enum class Manifoldness { ANY, MANIFOLD, MANIFOLD_WITH_BOUNDARY };
 
-/// Refines the facets, and nothing else, from the points that are in the triangulation. The calls of CGAL 5, 6.0 and 6.1
-/// differ.
+/// Refines the facets, and nothing else, from the points that are in the triangulation. The calls of CGAL 5, 6.0 and
+/// 6.1 differ.
 template <class C3t3, class Domain, class Criteria>
 void refine_facets(C3t3& c3t3, const Domain& domain, const Criteria& criteria, Manifoldness manifoldness) {
   namespace parameters = CGAL::parameters;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The criteria by which CGAL's mesher refines facets, and the field of sizes that bounds their radius.
 #ifndef EQUIAFFINE_SRC_DELAUNAY_SURFACE_CRITERIA_3_H
 #define EQUIAFFINE_SRC_DELAUNAY_SURFACE_CRITERIA_3_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The points from which refinement starts, with the balls that protect features and singular points.
 #ifndef EQUIAFFINE_SRC_DELAUNAY_INITIAL_POINTS_H
 #define EQUIAFFINE_SRC_DELAUNAY_INITIAL_POINTS_H
 
@@ -257,7 +258,8 @@ private:
 using Feature_balls = Protecting_balls_3<Any_function_3::Kernel>;
 
 /// Balls along all features: the given curves, and the curves in which the surface meets the border of the domain.
-/// `radius` bounds the size of facets. Points of features that are nearer to others than a thousandth of it are left out.
+/// `radius` bounds the size of facets. Points of features that are nearer to others than a thousandth of it are left
+/// out.
 inline Feature_balls cover_features(const Memoized_function_3& function, const Clip_domain_3& domain, double radius,
                                     const Facet_sizing_field& size, const std::vector<Feature_curve_3>& given) {
   using Point_3 = Any_function_3::Point_3;
@@ -313,8 +315,8 @@ std::optional<typename Traits::Point_3> node_near(const Traits& traits, const ty
 }
 
 /// Finds the isolated singular point of a surface near a point where f has no gradient, such as the apex of half a cone
-/// or of a pyramid, not much further away than `reach`. The tangent planes around an apex nearly meet in it: their least
-/// squares point is computed from gradients at points around, at smaller and smaller distances.
+/// or of a pyramid, not much further away than `reach`. The tangent planes around an apex nearly meet in it: their
+/// least squares point is computed from gradients at points around, at smaller and smaller distances.
 template <ImplicitFunctionTraits_3 Traits>
 std::optional<typename Traits::Point_3> apex_near(const Traits& traits, const typename Traits::Point_3& start,
                                                   double reach) {

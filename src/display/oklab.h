@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Conversions from Oklab to sRGB, and the diverging and the sequential color map, which are made with it.
 #ifndef EQUIAFFINE_SRC_DISPLAY_OKLAB_H
 #define EQUIAFFINE_SRC_DISPLAY_OKLAB_H
 

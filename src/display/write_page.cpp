@@ -28,8 +28,8 @@ void write_data_block(std::ostream& out, const std::string& id, PutAll put_all) 
   out << "</script>\n";
 }
 
-/// Writes all arrays: positions relative to the center, triangles, status, parts (`Parabolic_part`, empty if no vertex is
-/// parabolic), and one per column.
+/// Writes all arrays: positions relative to the center, triangles, status, parts (`Parabolic_part`, empty if no vertex
+/// is parabolic), and one per column.
 void write_data(std::ostream& out, const Page_surface& surface, const Vertex_attributes& attributes,
                 const Parabolic_parts& parabolic) {
   write_data_block(out, "positions", [&](Base64_writer& writer) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The band around the data in which the function of a fit is defined.
 #ifndef EQUIAFFINE_SRC_FIT_BAND_3_H
 #define EQUIAFFINE_SRC_FIT_BAND_3_H
 
@@ -28,9 +29,9 @@ class Border_gap_3 {
 public:
   using Vector = Eigen::Vector3d;
 
-  /// A sector without other points nearer than `radius` spacings is a gap if it is wider than this. At a point of a random
-  /// sample without border, some 44 points are so near, and a sector of a third of the plane is empty with the chance
-  /// 44 (2/3)^43 = 1e-6. A round hole has gaps if its radius is larger than this one.
+  /// A sector without other points nearer than `radius` spacings is a gap if it is wider than this. At a point of a
+  /// random sample without border, some 44 points are so near, and a sector of a third of the plane is empty with the
+  /// chance 44 (2/3)^43 = 1e-6. A round hole has gaps if its radius is larger than this one.
   static constexpr double radius = 3.5, least_angle = 2 * std::numbers::pi / 3;
 
   /// The widest sector without any of the vectors to other points, if it is a gap.
@@ -85,10 +86,10 @@ struct Band_point_3 {
   Charts_3::Index chart; ///< the smooth part of the surface
 };
 
-/// The part of space near points of a surface: within 2 spacings of the nearest one along its normal, or within a margin
-/// that may be larger, within 1.25 spacings across, and no more than a quarter of a spacing beyond the border, since
-/// polynomials that go on there know nothing. Away from borders it is also what is within 1 spacing across of another one
-/// of the nearest points, where the density jumps. The core is a lower part of it.
+/// The part of space near points of a surface: within 2 spacings of the nearest one along its normal, or within a
+/// margin that may be larger, within 1.25 spacings across, and no more than a quarter of a spacing beyond the border,
+/// since there polynomials are only extrapolated. Away from borders it is also what is within 1 spacing across of
+/// another one of the nearest points, where the density jumps. The core is a lower part of it.
 class Band_3 {
 public:
   using Vector = Eigen::Vector3d;
@@ -126,9 +127,9 @@ public:
   }
 
   /// Returns the heights over the smooth parts that the nearest points belong to, that of the very nearest first: means
-  /// of the heights over the tangent planes at these points, with the weights ((R - d) / (R d))^2, where R is the distance
-  /// of the next nearest one, so that the mean is continuous (Renka, Multivariate interpolation of large sets of scattered
-  /// data, 1988, with planes in place of quadratic functions).
+  /// of the heights over the tangent planes at these points, with the weights ((R - d) / (R d))^2, where R is the
+  /// distance of the next nearest one, so that the mean is continuous (Renka, Multivariate interpolation of large sets
+  /// of scattered data, 1988, with planes in place of quadratic functions).
   /// \pre the band has points.
   std::vector<Height> heights(const Vector& p) const {
     const std::vector<Foot> feet = nearest_feet(p);
@@ -225,7 +226,7 @@ private:
   }
 
   std::vector<Band_point_3> points_;
-  std::size_t count_; ///< of the nearest points that have a say: 9, or more for corners of many parts
+  std::size_t count_; ///< of the nearest points that are considered: 9, or more for corners of many parts
   Point_tree_3 tree_;
   Ball_tree_3 balls_;
 };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The function of a fit: a blend of polynomials that are fitted to parts of the data.
 #ifndef EQUIAFFINE_SRC_FIT_BLEND_3_H
 #define EQUIAFFINE_SRC_FIT_BLEND_3_H
 
@@ -23,13 +24,13 @@
 
 namespace equiaffine::internal {
 
-/// The mean of the patches around a point with weights (1 - |p - c|^2 / R^2)^6 / R^8, where c is the center of a patch and
-/// R a part of its radius. The factor gives small patches, which know more, the say where those of sparser data overlap
-/// with them. Derivatives are means with the same weights, as if these were constant: the diffuse derivatives of Nayroles,
-/// Touzot and Villon (1992). Those of the weights would only add what patches disagree on, divided by powers of R. Each
-/// smooth part of the surface has patches of its own.
+/// The mean of the patches around a point with weights (1 - |p - c|^2 / R^2)^6 / R^8, where c is the center of a patch
+/// and R a part of its radius. By the factor 1 / R^8 small patches, which are more accurate, dominate where those of
+/// sparser data overlap with them. Derivatives are means with the same weights, as if these were constant: the diffuse
+/// derivatives of Nayroles, Touzot and Villon (1992). Those of the weights would only add what patches disagree on,
+/// divided by powers of R. Each smooth part of the surface has patches of its own.
 ///
-/// Another sheet of a part may lie within R. Since a patch of that sheet is not to have a say on this one, its weight is
+/// Another sheet of a part may lie within R. Since a patch of that sheet must not influence this one, its weight is
 /// multiplied by (1 - (g / b)^2)^6, where g is its value and b is a part of the distance from its center to the nearest
 /// point that is not connected with it.
 class Patches_3 {
@@ -96,8 +97,8 @@ public:
   }
 
   /// The accuracy of an expansion at a point: geometric means of the errors of the fits that are blended there, since
-  /// these differ by orders of magnitude where K_e is about 0 for some of the fits. Where the curvatures of the expansion
-  /// are larger than those of the fits, they are as uncertain relative to their own size.
+  /// these differ by orders of magnitude where K_e is about 0 for some of the fits. Where the curvatures of the
+  /// expansion are larger than those of the fits, they are as uncertain relative to their own size.
   Fit_accuracy accuracy(const Vector& p, const Jet_3<double>& jet, Charts_3::Index chart) const {
     constexpr Eigen::Index n = number_of_fitted_numbers;
     using Numbers = Eigen::Array<double, 4 * n + 1, 1>;
@@ -122,8 +123,8 @@ public:
 private:
   static constexpr double reach = 0.5, distance_of_centers = 0.4, safety = 0.7;
 
-  /// Weights fall with this power of the radius, so that small fits win: on a bowl whose density jumps by ten, that took
-  /// the error of K beside the jump from 1e-2 to 3e-6.
+  /// Weights fall with this power of the radius, so that small fits dominate: on a bowl whose density jumps by ten,
+  /// that took the error of K beside the jump from 1e-2 to 3e-6.
   static constexpr double power_of_radius = 8;
 
   /// Calls f(k, weight, value, depth) for the patches k of a smooth part that have a weight at a point.
@@ -158,11 +159,11 @@ private:
   Ball_tree_3 balls_;
 };
 
-/// One function from many patches, defined near its zero set beside the data only, in a band with a margin as large as it
-/// is asked for. Above the core of the band polynomials know nothing, and where they are far from the height over the
-/// surface they are wrong: the value becomes that height there, continuously, and first derivatives become those of the
-/// height. Each smooth part between creases has a function of its own; where parts meet, their values are combined as a
-/// solid is from half-spaces, see Charts_3.
+/// One function from many patches, defined near its zero set beside the data only, in a band with a margin as large as
+/// it is asked for. Above the core of the band the data do not determine the polynomials, and where these are far from
+/// the height over the surface they are wrong: the value becomes that height there, continuously, and first derivatives
+/// become those of the height. Each smooth part between creases has a function of its own; where parts meet, their
+/// values are combined as a solid is from half-spaces, see Charts_3.
 class Blend_3 {
 public:
   using Vector = Eigen::Vector3d;
@@ -179,8 +180,8 @@ public:
     return heights.size() == 1 ? value_of_part(p, heights.front()) : choice(p, heights).value;
   }
 
-  /// The expansion at a point: to first order in the band, to a higher one where the value is that of polynomials alone.
-  /// A value that fades has the derivatives that it has without.
+  /// The expansion at a point: to first order in the band, to a higher one where the value is that of polynomials
+  /// alone. A value that fades has the derivatives that it has without.
   template <int Order>
   Jet_3<double, Order> taylor(const Vector& p) const {
     using Jet = Jet_3<double, Order>;
@@ -217,8 +218,8 @@ private:
     return t * t * (3 - 2 * t);
   }
 
-  /// The weight of the height beside the value of the polynomials: 0 in the core if the two about agree, 1 above it, where
-  /// they differ by 0.8 of the distance of the data, and where patches end.
+  /// The weight of the height beside the value of the polynomials: 0 in the core if the two about agree, 1 above it,
+  /// where they differ by 0.8 of the distance of the data, and where patches end.
   static double part_of_height(const Patches_3::Mean<double>& mean, const Band_3::Height& height) {
     const auto& [value, depth] = mean;
     if (!std::isfinite(value) || is_above_core(height)) return 1;
@@ -317,8 +318,8 @@ private:
       feet[i] = {data.points[i], data.normals[i], data.spacing[i], core, {}, data.charts.of(i)};
   }
 
-  /// Returns the gap beside the foot of a point where the surface does not go on, if there is one: neither a neighbor nor
-  /// another point nearby is there. At a crease the surface goes on as another part.
+  /// Returns the gap beside the foot of a point where the surface does not go on, if there is one: neither a neighbor
+  /// nor another point nearby is there. At a crease the surface goes on as another part.
   static std::optional<Border_gap_3> gap(const Data_points_3& data,
                                          const std::vector<std::optional<Band_point_3>>& feet, Data_points_3::Index i) {
     if (!feet[i] || data.charts.has_crease_at(i)) return {};
@@ -332,8 +333,8 @@ private:
     return Border_gap_3::widest(feet[i]->normal, to_others);
   }
 
-  /// The greatest part of a height, halved up to three times, up to which values are about the height on both sides. Fits
-  /// to flat parts do not know much of what is above them.
+  /// The greatest part of a height, halved up to three times, up to which values are about the height on both sides.
+  /// Data on flat parts determine little of a fit above them.
   double sound_height(const Vector& foot, const Vector& normal, Charts_3::Index chart, double height) const {
     const auto is_sound = [&](double h) { return patches_.value(foot + h * normal, chart).value / h > 0.5; };
     const double least = height / 8;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Fits polynomials around one point as a way to fit says, and estimates the errors of their curvatures.
 #ifndef EQUIAFFINE_SRC_FIT_CURVATURE_FIT_3_H
 #define EQUIAFFINE_SRC_FIT_CURVATURE_FIT_3_H
 
@@ -34,8 +35,8 @@ struct Curvature_fit_3 {
   Fit_accuracy accuracy;
 };
 
-/// Fits polynomials of degrees of a family. Where the ball has too few points for all, as at a border of the surface, it
-/// grows. Where they do not determine a polynomial, since they fill a small part of the ball only, it shrinks.
+/// Fits polynomials of degrees of a family. Where the ball has too few points for all, as at a border of the surface,
+/// it grows. Where they do not determine a polynomial, since they fill a small part of the ball only, it shrinks.
 inline std::vector<Local_fit_3> fit_in_way(const Data_points_3& data, Data_points_3::Index center, double radius,
                                            const Way_to_fit& way, std::span<const int> degrees,
                                            const Number_request& request) {
@@ -118,8 +119,8 @@ inline Fit_accuracy accuracy_at_scale(const Local_fit_3& fit, double noise) {
 }
 
 /// Returns the difference to the next degree, as parts of the sizes of the numbers, where the data are nearly exact: it
-/// is what a scale mixes. Noise would explain it elsewhere. The curvature jumps at the joint of a sphere and a cylinder,
-/// say, without a crease.
+/// is what a scale mixes. Noise would explain it elsewhere. The curvature jumps at the joint of a sphere and a
+/// cylinder, say, without a crease.
 inline Number_errors mixture_at_scale(const Data_points_3& data, Data_points_3::Index center, const Way_to_fit& way,
                                       const Local_fit_3& fit, const Number_request& request) {
   constexpr double nearly_exact = 0.01, quiet_part = 0.25; // of the spacing, and of the points of the ball
@@ -138,8 +139,8 @@ inline Number_errors mixture_at_scale(const Data_points_3& data, Data_points_3::
 /// which reaches half of the radius away and takes the lower degree.
 enum class Fit_use { NUMBERS, BLEND };
 
-/// The fit of the greater degree to exact data, if its K is known better than with the accuracy `lower` of the other. Where
-/// that says that K_e may be zero, it answers: curvatures of a flat part are small for the lower degree.
+/// The fit of the greater degree to exact data, if its K is known better than with the accuracy `lower` of the other.
+/// Where that says that K_e may be zero, it answers: curvatures of a flat part are small for the lower degree.
 inline std::optional<Curvature_fit_3> exact_fit(const Data_points_3& data, Data_points_3::Index center,
                                                 const Way_to_fit& way, const Number_request& request,
                                                 const std::vector<Local_fit_3>& fits, const Fit_accuracy& lower) {
@@ -158,8 +159,8 @@ inline std::optional<Curvature_fit_3> exact_fit(const Data_points_3& data, Data_
   return Curvature_fit_3{fit.patch, fit.estimates->numbers, accuracy};
 }
 
-/// Fits the points around a center. Nothing is known where the degree had to be lower, as at a corner of a border, nor at a
-/// scale where the ball had to have another radius.
+/// Fits the points around a center. Nothing is known where the degree had to be lower, as at a corner of a border, nor
+/// at a scale where the ball had to have another radius.
 inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, Data_points_3::Index center,
                                                     const Fit_choice& choice, const Fit_choices_3& choices,
                                                     Fit_use use) {

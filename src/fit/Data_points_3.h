@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The points that are fitted, with normals and neighbors, searches among them, and the coordinates that fits use.
 #ifndef EQUIAFFINE_SRC_FIT_DATA_POINTS_3_H
 #define EQUIAFFINE_SRC_FIT_DATA_POINTS_3_H
 
@@ -189,9 +190,9 @@ struct Normalization_3 {
   double least_stretch() const { return 1 / matrix.inverse().operatorNorm(); }
 };
 
-/// The symmetric matrix to coordinates in which the sum of e e^T over all edges e of all stars has no preferred direction
-/// and the edges have length 1 on average. Directions in which the edges are a thousand times as short as in others, as
-/// for points in a plane, are stretched no further.
+/// The symmetric matrix to coordinates in which the sum of e e^T over all edges e of all stars has no preferred
+/// direction and the edges have length 1 on average. Directions in which the edges are a thousand times as short as in
+/// others, as for points in a plane, are stretched no further.
 ///
 /// An edge counts as three times as long as the lower quartile of its star at most, so that long triangles, as along a
 /// cylinder, do not decide, while sparse parts of the data do.

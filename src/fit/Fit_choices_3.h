@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Chooses how to fit around each point: the family, the degree and the radius, by trials or for a scale.
 #ifndef EQUIAFFINE_SRC_FIT_FIT_CHOICES_3_H
 #define EQUIAFFINE_SRC_FIT_FIT_CHOICES_3_H
 
@@ -81,9 +82,9 @@ struct Fit_choice {
   double noise = 0;                            ///< the standard deviation of points from any smooth surface
 };
 
-/// The way to fit that the data choose around every point, if no scale is given. Trial fits at sample centers are scored
-/// by an estimate of their errors, from the difference to the next degree and from the residuals; scores are averaged
-/// over neighboring centers, and the least wins.
+/// The way to fit that the data choose around every point, if no scale is given. Trial fits at sample centers are
+/// scored by an estimate of their errors, from the difference to the next degree and from the residuals; scores are
+/// averaged over neighboring centers, and the way with the least score is chosen.
 class Fit_trials_3 {
 public:
   using Index = Data_points_3::Index;
@@ -124,7 +125,8 @@ private:
     double noise = 0;
   };
 
-  /// Polynomials in space, which take most of the time, are tried only where heights leave a larger relative error of K.
+  /// Polynomials in space, which take most of the time, are tried only where heights leave a larger relative error of
+  /// K.
   static constexpr double doubtful_level = 3e-3;
 
   /// A search ends after three radii in a row whose error is so many times the least one.
@@ -267,8 +269,8 @@ private:
   }
 
   /// How many times larger the errors of a candidate are than `level`, which differences of degrees tell. Where all
-  /// degrees leave out the same detail, a smaller ball shows it (Lepski, On a problem of adaptive estimation in Gaussian
-  /// white noise, 1991).
+  /// degrees leave out the same detail, a smaller ball shows it (Lepski, On a problem of adaptive estimation in
+  /// Gaussian white noise, 1991).
   double factor_by_smaller_balls(const std::vector<Index>& around, std::size_t candidate,
                                  const Number_errors& level) const {
     double factor = 1;
@@ -282,8 +284,8 @@ private:
     return factor;
   }
 
-  /// Candidates that fail at most centers around are passed over, unless no other is left. On exact data, where differences
-  /// of degrees are small beside those of balls, smaller balls do not count.
+  /// Candidates that fail at most centers around are passed over, unless no other is left. On exact data, where
+  /// differences of degrees are small beside those of balls, smaller balls do not count.
   std::optional<Fit_choice> choice_at(std::size_t c) const {
     const bool is_exact = trials_[c].noise <= noise_of_exact_data * data_.spacing[centers_[c]];
     const auto around = tree_.nearest(data_.points[centers_[c]], number_around);
@@ -348,7 +350,8 @@ public:
   /// At a scale curvatures are by definition those of a polynomial whose degree, the least one, makes the least of
   /// noise; one of degree 8 or 10 is a height. The weight of normals is small, since noise of the points makes normals
   /// wrong by more than their number evens out: with 0.3, K was off by four of its standard deviations where the noise
-  /// was a tenth of an edge. The ball is larger for it, so that the scale means the same resolution as with that weight.
+  /// was a tenth of an edge. The ball is larger for it, so that the scale means the same resolution as with that
+  /// weight.
   void set_scale(double scale) {
     constexpr double weight_of_normals = 0.03;
     const int degree = options_.degree.value_or(4);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Chooses the scale of a fit, and computes the local structures with estimated errors that it gives.
 #ifndef EQUIAFFINE_SRC_FIT_FITTED_DATA_3_H
 #define EQUIAFFINE_SRC_FIT_FITTED_DATA_3_H
 
@@ -163,8 +164,8 @@ inline double principal_diagonal(const std::vector<Eigen::Vector3d>& points) {
   return points.empty() ? 0 : (upper - lower).norm();
 }
 
-/// Sets the smallest scale at which noise leaves K known to 20 % at half of the points, from 1/64 to 1/8 of the diagonal;
-/// or the largest of these, where it never does.
+/// Sets the smallest scale at which noise leaves K known to 20 % at half of the points, from 1/64 to 1/8 of the
+/// diagonal; or the largest of these, where it never does.
 inline void set_known_scale(bool in_threads, const Normalized_data& normalized, Fit_choices_3& choices) {
   const Data_points_3& data = normalized.data;
   constexpr std::size_t most_centers = 200;

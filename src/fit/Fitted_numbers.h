@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The numbers whose errors fits estimate, and the factors that calibrate these estimates.
 #ifndef EQUIAFFINE_SRC_FIT_FITTED_NUMBERS_H
 #define EQUIAFFINE_SRC_FIT_FITTED_NUMBERS_H
 
@@ -145,9 +146,9 @@ inline Source_of_error source_of_error(double noise) {
   return noise < much_noise ? Source_of_error::BOTH : Source_of_error::NOISE;
 }
 
-/// The factors with which estimates of errors cover the errors at 95 % of the points where they are below a half, and at
-/// 91.5 % on all meshes but one, up to a factor of 4. benchmark/fit/calibrate-fits makes them, from surfaces whose numbers are
-/// known, with noise and without, and for a scale from halves of scans.
+/// The factors with which estimates of errors cover the errors at 95 % of the points where they are below a half, and
+/// at 91.5 % on all meshes but one, up to a factor of 4. benchmark/fit/calibrate-fits makes them, from surfaces whose
+/// numbers are known, with noise and without, and for a scale from halves of scans.
 inline Number_errors calibration(Source_of_error source) {
   // of K, H, J, |K_e|^(1/4), K_e, H_e, k1, k2, the affine normal and the normal
   using Row = std::array<double, std::size_t(number_of_fitted_numbers)>;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// One fitted polynomial with its expansions, its curvatures and what is known of their errors.
 #ifndef EQUIAFFINE_SRC_FIT_LOCAL_FIT_3_H
 #define EQUIAFFINE_SRC_FIT_LOCAL_FIT_3_H
 

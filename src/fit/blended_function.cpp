@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What Fitted_function_traits_3 asks of the library: the blend of fits, and sheets of the data that are near each other.
+// What Fitted_function_traits_3 asks of the library: the blend of fits, and sheets of the data that are near each
+// other.
 #include "fit/Blend_3.h"
 #include "fit/Data_points_3.h"
 #include "fit/Fitted_data_3.h"
@@ -99,9 +100,9 @@ bool are_beside_crease(const Data_points_3& data, Data_points_3::Index i, Data_p
 }
 
 /// The distances along the normals, in the coordinates of the data, between points and the next ones that are within a
-/// spacing of them across and on another sheet, where these are less than `greatest` and about ten spacings. Points that
-/// are not connected nearby are on different sheets, and points whose normals are opposed, as on both sides of a thin
-/// plate or tube.
+/// spacing of them across and on another sheet, where these are less than `greatest` and about ten spacings. Points
+/// that are not connected nearby are on different sheets, and points whose normals are opposed, as on both sides of a
+/// thin plate or tube.
 std::vector<double> distances_of_sheets(bool in_threads, const Fitted_data_3& fit, double greatest) {
   using Index = Data_points_3::Index;
   const Data_points_3& data = fit.data();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Fits heights over the tangent plane, as polynomials in two variables, to the points of a ball.
 #ifndef EQUIAFFINE_SRC_FIT_FIT_HEIGHT_H
 #define EQUIAFFINE_SRC_FIT_FIT_HEIGHT_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Prepares meshes and points for fits: removes outliers, splits meshes at creases, and finds normals and neighbors.
 #ifndef EQUIAFFINE_SRC_FIT_FIT_INPUT_H
 #define EQUIAFFINE_SRC_FIT_FIT_INPUT_H
 
@@ -48,9 +49,9 @@ inline Eigen::Vector3d mean_of_neighbors(const Data_points_3& data, Data_points_
   return mean;
 }
 
-/// Whether a point is an outlier: away from the mean of its neighbors and theirs by more than 1.5 times their mean distance
-/// from it, and from each neighbor by more than 1.5 times the median distance between these and theirs. A corner of a
-/// solid, the apex of a flat cone, the center of a fan of long triangles and a point at a border are none.
+/// Whether a point is an outlier: away from the mean of its neighbors and theirs by more than 1.5 times their mean
+/// distance from it, and from each neighbor by more than 1.5 times the median distance between these and theirs. A
+/// corner of a solid, the apex of a flat cone, the center of a fan of long triangles and a point at a border are none.
 inline bool is_outlier(const Data_points_3& data, Data_points_3::Index i) {
   constexpr double much = 1.5;
   constexpr std::size_t enough = 3; // neighbors
@@ -87,8 +88,8 @@ inline std::vector<char> outliers(const Data_points_3& data) {
   return result;
 }
 
-/// Leaves the edges between points that are no outliers, and returns whether there were others. Points without neighbors
-/// get no fit and count in none.
+/// Leaves the edges between points that are no outliers, and returns whether there were others. Points without
+/// neighbors get no fit and count in none.
 inline bool drop_outliers(const std::vector<char>& is_outlier, std::vector<Data_points_3::Edge>& edges) {
   return std::erase_if(edges, [&](const auto& edge) {
            const auto is_one = [&](Data_points_3::Index i) { return i < is_outlier.size() && is_outlier[i]; };
@@ -108,9 +109,9 @@ inline std::vector<Data_points_3::Edge> edges_of(const std::vector<std::vector<D
 }
 
 /// Vertices of a mesh with the polygons between them. Neighbors are the ends of edges, and normals are the sums of
-/// those of the faces around, weighted by area. The surface comes apart at creases, edges that bend by more than an angle
-/// in degrees: the points on them are data of each side, those of all sides but the largest one behind the vertices.
-/// Outliers have no neighbors.
+/// those of the faces around, weighted by area. The surface comes apart at creases, edges that bend by more than an
+/// angle in degrees: the points on them are data of each side, those of all sides but the largest one behind the
+/// vertices. Outliers have no neighbors.
 inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices,
                                     const std::vector<std::vector<Data_points_3::Index>>& faces, double feature_angle) {
   std::vector<Data_points_3::Edge> edges = edges_of(faces);
@@ -146,8 +147,8 @@ inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices
   return result;
 }
 
-/// Replaces the normals that the faces around the vertices have by given ones, but for those that differ by more than 60
-/// degrees: at a crease a vertex has one normal, and two sides.
+/// Replaces the normals that the faces around the vertices have by given ones, but for those that differ by more than
+/// 60 degrees: at a crease a vertex has one normal, and two sides.
 inline void improve_normals(Normalized_data& normalized, const std::vector<Eigen::Vector3d>& given) {
   constexpr double least_cosine = 0.5;
   const Eigen::Matrix3d inverse_transpose = normalized.normalization.matrix.inverse().transpose();

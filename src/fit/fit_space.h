@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Fits polynomials in space, whose zero set is the surface, to the points of a ball and their normals.
 #ifndef EQUIAFFINE_SRC_FIT_FIT_SPACE_H
 #define EQUIAFFINE_SRC_FIT_FIT_SPACE_H
 
@@ -35,7 +36,8 @@ constexpr Eigen::Index position_of_monomial(int i, int j, int k) {
 }
 
 /// Sums over the points of a ball, of weights times monomials and products of components of the normal, from which
-/// polynomials of degree d have their normal equations. There are far fewer of them than products of pairs of monomials.
+/// polynomials of degree d have their normal equations. There are far fewer of them than products of pairs of
+/// monomials.
 struct Monomial_moments {
   Eigen::VectorXd of_points; ///< of monomials up to degree 2 d
   /// These are of monomials up to degree 2 d - 2 times n_x n_x, n_x n_y, n_x n_z, n_y n_y, n_y n_z, n_z n_z, n_x, n_y

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Builds the tape of an expression: shares equal subexpressions, drops unused nodes, and assigns slots.
 #ifndef EQUIAFFINE_SRC_FORMULA_TAPE_BUILDER_H
 #define EQUIAFFINE_SRC_FORMULA_TAPE_BUILDER_H
 

@@ -29,8 +29,8 @@ namespace internal {
 
 namespace {
 
-/// Keeps both ends of a named pipe open while somebody opens it for reading, which would wait for a program that writes,
-/// forever if that has written all and is gone.
+/// Keeps both ends of a named pipe open while somebody opens it for reading, which would wait for a program that
+/// writes, forever if that has written all and is gone.
 class Open_pipe {
 public:
   /// Throws if no program writes to the pipe within ten seconds.

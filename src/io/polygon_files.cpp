@@ -28,8 +28,8 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// A file that takes the place of another one when it is complete, and is removed otherwise. It hands on the permissions
-/// of that one, and a link stays a link.
+/// A file that takes the place of another one when it is complete, and is removed otherwise. It hands on the
+/// permissions of that one, and a link stays a link.
 class Whole_file {
 public:
   explicit Whole_file(const std::string& path) : path_(path), target_(std::filesystem::weakly_canonical(path, error_)) {
@@ -65,8 +65,8 @@ private:
   std::ofstream stream_;
 };
 
-/// Calls `write(stream)` for a file that takes the place of the path when it is complete. \throw Input_error if it cannot
-/// be written
+/// Calls `write(stream)` for a file that takes the place of the path when it is complete. \throw Input_error if it
+/// cannot be written
 template <class Write>
 void write_whole_file(const std::string& path, const Write& write) {
   Whole_file file(path);

@@ -72,8 +72,8 @@ private:
     return *x;
   }
 
-  /// The position of the vertex that a corner of a face names, as VERTEX, VERTEX/TEXTURE or VERTEX/TEXTURE/NORMAL. Positive
-  /// numbers count the vertices of the file from 1, negative ones those before the face from its end.
+  /// The position of the vertex that a corner of a face names, as VERTEX, VERTEX/TEXTURE or VERTEX/TEXTURE/NORMAL.
+  /// Positive numbers count the vertices of the file from 1, negative ones those before the face from its end.
   std::size_t position(std::string_view corner) const {
     const auto number = parse_number<std::int64_t>(corner.substr(0, corner.find('/')));
     if (!number) fail("has a face with a vertex that is not an integer");

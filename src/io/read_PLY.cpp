@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A PLY file is a header, which says how numbers are written, and lists elements with their properties, and the numbers.
-// Elements become points with columns, and faces.
+// A PLY file is a header, which says how numbers are written, and lists elements with their properties, and the
+// numbers. Elements become points with columns, and faces.
 #include "io/text_input.h"
 #include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/base/internal/compiler.h>

@@ -116,8 +116,8 @@ std::vector<Corner> corners_of_text_STL(std::string_view text, const std::string
   return corners;
 }
 
-/// The first of the corners with the same coordinates, for each corner. Zeros of both signs are the same, and so are NaN
-/// with the same bits. Sorting takes the same time whatever the coordinates are.
+/// The first of the corners with the same coordinates, for each corner. Zeros of both signs are the same, and so are
+/// NaN with the same bits. Sorting takes the same time whatever the coordinates are.
 std::vector<std::size_t> first_of_same(const std::vector<Corner>& corners) {
   const auto bits = [&](std::size_t c) {
     const auto& [x, y, z] = corners[c];

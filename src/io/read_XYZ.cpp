@@ -38,8 +38,8 @@ std::optional<std::string_view> xyz_comment(std::string_view line) {
   return std::nullopt;
 }
 
-/// The names of the columns behind x, y, z, if a comment is a list of names as CloudCompare writes it, X Y Z R G B. Normals
-/// are called nx, ny, nz, and colors red, green, blue, as in PLY.
+/// The names of the columns behind x, y, z, if a comment is a list of names as CloudCompare writes it, X Y Z R G B.
+/// Normals are called nx, ny, nz, and colors red, green, blue, as in PLY.
 std::optional<std::vector<std::string>> xyz_column_names(std::string_view comment) {
   constexpr std::string_view usual[][2] = {{"x", "x"},   {"y", "y"},   {"z", "z"},     {"nx", "nx"}, {"ny", "ny"},
                                            {"nz", "nz"}, {"r", "red"}, {"g", "green"}, {"b", "blue"}};

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Takes lines, words and numbers from the text of a file, for the readers of points and meshes.
 #ifndef EQUIAFFINE_SRC_IO_TEXT_INPUT_H
 #define EQUIAFFINE_SRC_IO_TEXT_INPUT_H
 
@@ -20,8 +21,8 @@ inline std::string_view trim(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin);
 }
 
-/// The whole text as a number; none if it is something else. Blanks around it and a leading '+' are allowed, and no
-/// locale has a say.
+/// The whole text as a number; none if it is something else. Blanks around it and a leading '+' are allowed. The
+/// locale has no influence.
 template <class Number>
 std::optional<Number> parse_number(std::string_view text) {
   text = trim(text);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Affine maps with their kinds, and the maps between meshes that a search returns.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_AFFINE_MAP_3_H
 #define EQUIAFFINE_SRC_REGISTRATION_AFFINE_MAP_3_H
 

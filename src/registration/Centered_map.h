@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Maps between whole surfaces with a common centroid: how they are judged and refined, and rotations among them.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_CENTERED_MAP_H
 #define EQUIAFFINE_SRC_REGISTRATION_CENTERED_MAP_H
 
@@ -48,7 +49,8 @@ struct Centered_pair {
   bool is_mesh_itself() const { return are_meshes() && &source == &target; }
 };
 
-/// The distances of the first `count` points of both surfaces: of moved ones, and of the others beside the moved surface.
+/// The distances of the first `count` points of both surfaces: of moved ones, and of the others beside the moved
+/// surface.
 struct Distances_both_ways {
   std::vector<Mapped_point> moved, fixed;
 
@@ -114,8 +116,8 @@ inline Distances_of_moved distances_of_moved(const Centered_surface_3& surface, 
   return distances_of_moved(surface, map, count, {{}, surface.distances});
 }
 
-/// The rms distance, both ways, between moved points and the surface, in the proportions of the target, the mean over its
-/// area there. It is the one that is `sought` where these are the proportions in which maps are sought.
+/// The rms distance, both ways, between moved points and the surface, in the proportions of the target, the mean over
+/// its area there. It is the one that is `sought` where these are the proportions in which maps are sought.
 inline double own_rms(const Centered_pair& surfaces, const Affine_map_3& map, std::size_t count, double sought) {
   const auto& [source, target] = surfaces;
   if (source.own.distances == source.distances && target.own.distances == target.distances) return sought;
@@ -221,7 +223,8 @@ inline std::vector<Centered_map> different(std::vector<Centered_map> maps, doubl
                       [](const Centered_map& a, const Centered_map& b) { return difference(a, b) < same_map; });
 }
 
-/// A map refined by least squares, judged by many points. A map between meshes keeps the centroid if it is as good then.
+/// A map refined by least squares, judged by many points. A map between meshes keeps the centroid if it is as good
+/// then.
 inline Centered_map refined_and_judged(const Centered_pair& surfaces, const Affine_map_3& map, Map_kind kind) {
   const auto refined_map = [&](const Affine_map_3& m, bool keeps_center) {
     const Centered_refinement how = {.kind = kind, .most_steps = 10, .points = 300, .keeps_center = keeps_center};
@@ -286,9 +289,9 @@ inline Eigen::Vector3d axis_of(const Eigen::Matrix3d& m) {
   return Eigen::Vector3d(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)).normalized();
 }
 
-/// Returns three axes about which rotations move points away from the surface least, or in proportion, by their rms. The
-/// rotations of a mesh keep its centroid, which is exact, and are about an axis that was refined once: refinement of each
-/// would fit them to the facets.
+/// Returns three axes about which rotations move points away from the surface least, or in proportion, by their rms.
+/// The rotations of a mesh keep its centroid, which is exact, and are about an axis that was refined once: refinement
+/// of each would fit them to the facets.
 inline std::vector<Slipping_rotation> slipping_rotations(bool in_threads, const Centered_surface_3& surface,
                                                          Map_kind kind) {
   constexpr std::array<double, 4> angles = {1.0, 0.381966, 1.618034, 2.618034};
@@ -341,8 +344,8 @@ inline std::vector<Slipping_rotation> slipping_rotations(bool in_threads, const 
   return result;
 }
 
-/// Whether rotations of a mesh move no point further off it than facets are off the surface that they stand for, or than
-/// `rounding`. A part that is not one of revolution moves further, and the rms may not tell.
+/// Whether rotations of a mesh move no point further off it than facets are off the surface that they stand for, or
+/// than `rounding`. A part that is not one of revolution moves further, and the rms may not tell.
 inline bool keeps_to_facets(bool in_threads, const Centered_surface_3& surface, const Slipping_rotation& rotation,
                             double rounding) {
   constexpr std::array<double, 3> angles = {0.381966, 1.618034, 2.618034};

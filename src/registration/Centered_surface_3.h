@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Whole surfaces in coordinates with the centroid at 0, with the corners that reveal exact symmetries.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_CENTERED_SURFACE_3_H
 #define EQUIAFFINE_SRC_REGISTRATION_CENTERED_SURFACE_3_H
 
@@ -30,8 +31,8 @@
 
 namespace equiaffine::internal {
 
-/// A vertex whose angles do not add up to that of a plane or a half-plane, or at which a border bends. Corners depend on
-/// the shape alone: however faces are cut into triangles, a symmetry moves corners to corners with the same angle.
+/// A vertex whose angles do not add up to that of a plane or a half-plane, or at which a border bends. Corners depend
+/// on the shape alone: however faces are cut into triangles, a symmetry moves corners to corners with the same angle.
 struct Corner {
   Eigen::Vector3d point;
   double angle; ///< the sum of the angles of its triangles, and of that between edges of a border
@@ -245,9 +246,9 @@ struct Centered_surface_3 {
   double thickness() const { return std::min(1.0, 3 * std::sqrt(3.0) * extents()[0]); }
 };
 
-/// Whether a mesh, whose coordinates have a rounding error, has rigid symmetries to rounding by its corners. Then it is a
-/// solid with these corners: a scan has no such symmetries, and the corners of a fine sampling of a smooth surface are
-/// flatter.
+/// Whether a mesh, whose coordinates have a rounding error, has rigid symmetries to rounding by its corners. Then it is
+/// a solid with these corners: a scan has no such symmetries, and the corners of a fine sampling of a smooth surface
+/// are flatter.
 inline bool has_group_of_corners(bool in_threads, const Triangles_3& mesh, double rounding) {
   constexpr double least_defect = 0.05; // a prism with 100 sides has .063
   const Affine_map_3 map = centering_map(area_moments(mesh));
@@ -317,8 +318,8 @@ inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kin
   return result;
 }
 
-/// Moves samples near an ellipsoid to the sphere with center 0 and radius 1, by the least squares of a quadric, and returns
-/// the map. What moments of lines are off is much beside what tells such a surface from an ellipsoid.
+/// Moves samples near an ellipsoid to the sphere with center 0 and radius 1, by the least squares of a quadric, and
+/// returns the map. What moments of lines are off is much beside what tells such a surface from an ellipsoid.
 inline Affine_map_3 move_to_sphere(Area_samples_3& samples) {
   constexpr double nearness = 0.02;
   const auto quadric = quadric_near(samples.points, nearness);

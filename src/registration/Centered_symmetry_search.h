@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Searches for the symmetries of a whole surface among all rotations about its centroid.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_CENTERED_SYMMETRY_SEARCH_H
 #define EQUIAFFINE_SRC_REGISTRATION_CENTERED_SYMMETRY_SEARCH_H
 
@@ -25,9 +26,9 @@ namespace equiaffine::internal {
 struct Symmetry_thresholds {
   double exact = 0, turn = 0, approximate = 0.01, none = 0.03;
 
-  /// A symmetry is exact if it holds to rounding at every point. Triangles that stand for a smooth surface turn to within
-  /// their own error. Thin surfaces have less than their thickness allows. With a `tolerance` above 0, maps up to it are
-  /// sought, and a surface turns to within it.
+  /// A symmetry is exact if it holds to rounding at every point. Triangles that stand for a smooth surface turn to
+  /// within their own error. Thin surfaces have less than their thickness allows. With a `tolerance` above 0, maps up
+  /// to it are sought, and a surface turns to within it.
   Symmetry_thresholds(const Centered_surface_3& surface, double tolerance) {
     const double thickness = surface.thickness(), facet_error = surface.samples.facet_error;
     exact = exact_distance(surface.rounding);
@@ -103,8 +104,8 @@ private:
   /// Maps are sought to three times a tolerance at most, so that less is decided for longer bodies.
   static constexpr double least_stretch_of_tolerance = 1.0 / 3;
 
-  /// Adds rotations of any angle, if the surface keeps to itself by them. A finite group to rounding says more, if there
-  /// is one, unless turns up to a tolerance were asked for.
+  /// Adds rotations of any angle, if the surface keeps to itself by them. A finite group to rounding says more, if
+  /// there is one, unless turns up to a tolerance were asked for.
   bool add_continuous(std::vector<Slipping_rotation> rotations, Centered_symmetries& result) const {
     if (!surface_.is_exact && tolerance_ == 0) // a tolerance that is given is one of the rms
       std::erase_if(rotations, [this](const Slipping_rotation& r) {
@@ -237,8 +238,8 @@ private:
     return *std::max_element(rms.begin(), rms.end());
   }
 
-  /// The maps of a group with their rms, both ways, in the proportions of the surface: the points that one way moves are
-  /// those that the inverse map moves.
+  /// The maps of a group with their rms, both ways, in the proportions of the surface: the points that one way moves
+  /// are those that the inverse map moves.
   std::vector<Centered_map> verified(const Finite_group& group) const {
     const std::size_t points = std::max(fewest_verified, most_verified / group.maps.size());
     std::vector<Distances_of_moved> distances(group.maps.size(), {0, 0});

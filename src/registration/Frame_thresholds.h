@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The thresholds and limits of the search for maps by affine frames.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_FRAME_THRESHOLDS_H
 #define EQUIAFFINE_SRC_REGISTRATION_FRAME_THRESHOLDS_H
 

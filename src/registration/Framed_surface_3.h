@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The points of a surface with frames and invariants, by which two surfaces are matched.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_FRAMED_SURFACE_3_H
 #define EQUIAFFINE_SRC_REGISTRATION_FRAMED_SURFACE_3_H
 
@@ -40,8 +41,9 @@ using Gradient_of_invariants = Eigen::Matrix<double, 5, 2>;
 inline int number_of_invariants(Map_kind kind) { return keeps_volume(kind) ? 5 : 4; }
 
 /// A point of a surface with a frame that maps carry along, and the invariants around it: the affine frame, or, for
-/// maps that keep angles, the Euclidean one. The scale of the frame is such that a map with the matrix A carries the tangent
-/// vectors e1 and e2 to A e1 and A e2 without a weight, and the gradient, the derivatives along them, does not change.
+/// maps that keep angles, the Euclidean one. The scale of the frame is such that a map with the matrix A carries the
+/// tangent vectors e1 and e2 to A e1 and A e2 without a weight, and the gradient, the derivatives along them, does not
+/// change.
 struct Framed_point_3 {
   Eigen::Vector3d point;
   Eigen::Matrix3d basis; ///< columns e1, e2 and a transversal vector
@@ -62,8 +64,8 @@ inline Affine_map_3 map_between(const Framed_point_3& p, const Framed_point_3& q
   return {matrix, q.point - matrix * p.point};
 }
 
-/// The principal curvatures of a level set, the greater one first, and how they change along their directions. Not finite
-/// where the gradient is zero; arbitrary at umbilics. Units: 1/length and 1/length^2.
+/// The principal curvatures of a level set, the greater one first, and how they change along their directions. Not
+/// finite where the gradient is zero; arbitrary at umbilics. Units: 1/length and 1/length^2.
 struct Derivatives_of_curvature {
   Eigen::Vector2d k;
   Eigen::Matrix2d gradient;               ///< row i is that of k[i]
@@ -71,9 +73,9 @@ struct Derivatives_of_curvature {
   Eigen::Vector3d normal;                 ///< along the gradient of the function
 };
 
-/// The derivatives of f are those of the level set as a graph over its tangent plane by the chain rule: with f = g h + A /
-/// 2 + h B + T / 6 + ..., of which A, B and T are forms of degree 2, 1 and 3, the height is h = -A / (2 g) - (T - 3 A B /
-/// g) / (6 g) + ...
+/// The derivatives of f are those of the level set as a graph over its tangent plane by the chain rule: with
+/// f = g h + A / 2 + h B + T / 6 + ..., of which A, B and T are forms of degree 2, 1 and 3, the height is
+/// h = -A / (2 g) - (T - 3 A B / g) / (6 g) + ...
 inline Derivatives_of_curvature derivatives_of_curvature(const Jet_3<double>& jet) {
   const Euclidean_structure_3<double> s = euclidean_structure(Monge_chart_3<double>(jet));
   Derivatives_of_curvature result;
@@ -260,8 +262,8 @@ struct Framed_surface_3 {
   const Point_tree<5>& tree_of(const Framed_point_3& p) const { return trees[p.is_elliptic]; }
 };
 
-/// Points with a frame of less quality are not matched, unless almost all points are such, as those of an ellipsoid that
-/// is slightly disturbed. On quadrics the quality has the size of rounding.
+/// Points with a frame of less quality are not matched, unless almost all points are such, as those of an ellipsoid
+/// that is slightly disturbed. On quadrics the quality has the size of rounding.
 constexpr double least_quality = 0.02, least_quality_of_exact_frames = 1e-5;
 
 /// These bounds keep the time of a search independent of the number of points given.

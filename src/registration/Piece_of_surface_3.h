@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Pieces of surfaces that meshes give, and the evidence that their contact is for a map or against it.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_PIECE_OF_SURFACE_3_H
 #define EQUIAFFINE_SRC_REGISTRATION_PIECE_OF_SURFACE_3_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Searches all rotations about the origin by branch and bound, and makes finite groups of maps exact.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_ROTATION_SEARCH_H
 #define EQUIAFFINE_SRC_REGISTRATION_ROTATION_SEARCH_H
 
@@ -177,8 +178,8 @@ private:
         256);
   }
 
-  /// Returns the centers of cells, without those near others of less rms. The rms of a rotation in a cell is less than at
-  /// its center by at most the `slack`.
+  /// Returns the centers of cells, without those near others of less rms. The rms of a rotation in a cell is less than
+  /// at its center by at most the `slack`.
   static Rotation_candidates apart(std::vector<Cell> cells, double tolerance, double slack) {
     std::stable_sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.rms < b.rms; });
     Rotation_candidates result{{}, tolerance};

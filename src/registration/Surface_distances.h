@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The distances from a surface given as a mesh or a function, and samples of the surface of a function.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_SURFACE_DISTANCES_H
 #define EQUIAFFINE_SRC_REGISTRATION_SURFACE_DISTANCES_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Checks proposed symmetries of the zero set of a function at points on all of it.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_SYMMETRY_CHECK_H
 #define EQUIAFFINE_SRC_REGISTRATION_SYMMETRY_CHECK_H
 
@@ -92,8 +93,8 @@ public:
     return result;
   }
 
-  /// Checks the flows of infinitesimal maps by motions of finite lengths. Velocities know nothing of jumps of a function,
-  /// and of places where it is undefined.
+  /// Checks the flows of infinitesimal maps by motions of finite lengths. Velocities do not show jumps of a
+  /// function, nor places where it is undefined.
   Checked_map check_flows(bool in_threads, const std::vector<Infinitesimal_map_3>& velocities) const {
     Checked_map result = {.is_exact = true};
     for (const Infinitesimal_map_3& velocity : velocities) {

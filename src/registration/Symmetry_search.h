@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Searches for the finite group of symmetries of a surface by affine frames, and checks the group that is found.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_SYMMETRY_SEARCH_H
 #define EQUIAFFINE_SRC_REGISTRATION_SYMMETRY_SEARCH_H
 
@@ -25,8 +26,8 @@
 
 namespace equiaffine::internal {
 
-/// How far symmetries may move points from a surface without a given tolerance, parts of its size: splines and fits know
-/// the surface to within their errors only.
+/// How far symmetries may move points from a surface without a given tolerance, parts of its size: splines and fits
+/// give the surface to within their errors only.
 struct Default_tolerances {
   static constexpr double function = 1e-8, spline = 1e-5, fit = 1e-3;
 };
@@ -144,8 +145,8 @@ private:
     }
   }
 
-  /// Returns pairs whose points on the target are some spacings apart, those of the least cost first: the points around
-  /// one image would crowd out other images.
+  /// Returns pairs whose points on the target are some spacings apart, those of the least cost first: otherwise all
+  /// of them could be around one image.
   std::vector<Candidate_pair> apart(const std::vector<Candidate_pair>& pairs) const {
     std::vector<Candidate_pair> chosen;
     const auto position = [&](const Candidate_pair& pair) { return surface_.points[pair.target].point; };

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Pairs of points of two surfaces that may be images of each other, from which the search for maps starts.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_CANDIDATE_PAIRS_H
 #define EQUIAFFINE_SRC_REGISTRATION_CANDIDATE_PAIRS_H
 
@@ -21,8 +22,8 @@
 
 namespace equiaffine::internal {
 
-// Chooses the points of a surface that are tried first: those whose frame is good, whose invariants change quickly along
-// the surface and are rare on it, agree with those of their neighbors, and are not in doubt.
+// Chooses the points of a surface that are tried first: those whose frame is good, whose invariants change quickly
+// along the surface and are rare on it, agree with those of their neighbors, and are not in doubt.
 
 /// How much two gradients differ: 0 if they are equal, 1 at most.
 inline double mismatch(const Gradient_of_invariants& a, const Gradient_of_invariants& b) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Decides whether a map moves a part of one surface onto the other, a contrario: how many maps that are as good would be
-// expected by chance (Desolneux, Moisan, Morel: From Gestalt theory to image analysis, 2008)?
+// Decides whether a map moves a part of one surface onto the other, a contrario: how many maps that are as good would
+// be expected by chance (Desolneux, Moisan, Morel: From Gestalt theory to image analysis, 2008)?
 #ifndef EQUIAFFINE_SRC_REGISTRATION_MAP_EVIDENCE_H
 #define EQUIAFFINE_SRC_REGISTRATION_MAP_EVIDENCE_H
 
@@ -82,9 +82,9 @@ struct Judgement {
 };
 
 /// Two ways how chance could bring points near to a surface: they lie anywhere in the volume, or on a surface that
-/// touches the other one. Where two surfaces have contact of order n the distance grows with the power n + 1, and the part
-/// of the points within a tenth of a distance is at most 10^(-2/(n + 1)). The order is 4 for surfaces in general. Flat
-/// caps, as of x^6 + y^6 + z^6 = 1, have more: of formulas only roundings are no such contact.
+/// touches the other one. Where two surfaces have contact of order n the distance grows with the power n + 1, and the
+/// part of the points within a tenth of a distance is at most 10^(-2/(n + 1)). The order is 4 for surfaces in general.
+/// Flat caps, as of x^6 + y^6 + z^6 = 1, have more: of formulas only roundings are no such contact.
 inline void judge_one_way(const Sorted_distances& sorted, double chance, const Judgement& how, Map_evidence& evidence) {
   constexpr double rounding = 1e-9;
   double contact = 0, volume = 0, tolerance = 1;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Samples, moments, nearest triangles and errors of triangle meshes, for the search for maps between meshes.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_MESH_SAMPLES_H
 #define EQUIAFFINE_SRC_REGISTRATION_MESH_SAMPLES_H
 
@@ -111,7 +112,8 @@ struct Area_samples_3 {
   }
 };
 
-/// A random point of the ball with a radius around a surface is nearer to it than t with the probability of this times t.
+/// A random point of the ball with a radius around a surface is nearer to it than t with the probability of this times
+/// t.
 inline double chance_of_nearness(double area, double radius) {
   return 2 * area / (4 * std::numbers::pi / 3 * std::pow(radius, 3));
 }
@@ -198,8 +200,8 @@ struct Facet_error {
   double rms, greatest; ///< the rms over the area
 };
 
-/// Returns what the width of two triangles times the angle between them, over 8, tells of all edges. Those that bend by 50
-/// degrees or more are edges of the surface itself.
+/// Returns what the width of two triangles times the angle between them, over 8, tells of all edges. Those that bend by
+/// 50 degrees or more are edges of the surface itself.
 inline Facet_error facet_error(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
   constexpr double greatest_angle = 50 * std::numbers::pi / 180;
   double sum = 0, area = 0, greatest = 0;
@@ -267,8 +269,8 @@ inline double coordinate_rounding(const std::vector<Eigen::Vector3d>& points) {
   return std::max(decimal, binary);
 }
 
-/// Samples triangles by a sequence that is uniform in their area. The moments are those of the triangles themselves, and
-/// `edges` are their sorted edges.
+/// Samples triangles by a sequence that is uniform in their area. The moments are those of the triangles themselves,
+/// and `edges` are their sorted edges.
 /// \pre the mesh has an area.
 inline Area_samples_3 mesh_samples(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges,
                                    std::size_t count) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Refines a map between surfaces by least squares of the distances of moved points.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_REFINE_MAP_H
 #define EQUIAFFINE_SRC_REGISTRATION_REFINE_MAP_H
 
@@ -96,7 +97,8 @@ inline Eigen::MatrixXd infinitesimal_maps(Map_kind kind) {
   return maps;
 }
 
-/// The equations that a small change of a map, a combination of infinitesimal ones, moves points onto the other surface.
+/// The equations that a small change of a map, a combination of infinitesimal ones, moves points onto the other
+/// surface.
 class Refinement_equations {
 public:
   /// Points are taken relative to `center`, in the unit `size`.
@@ -120,8 +122,8 @@ public:
 
   std::size_t size() const { return rows_.size(); }
 
-  /// Returns the coefficients of the map that the least squares solution of least norm gives, to be applied after the one
-  /// that is refined. Combinations along which points move less than the `threshold` do not change.
+  /// Returns the coefficients of the map that the least squares solution of least norm gives, to be applied after the
+  /// one that is refined. Combinations along which points move less than the `threshold` do not change.
   Eigen::Matrix<double, 12, 1> solution(double threshold) const {
     Eigen::MatrixXd matrix(Eigen::Index(size()), basis_.cols());
     for (std::size_t i = 0; i < size(); ++i) matrix.row(Eigen::Index(i)) = rows_[i].transpose() * basis_;

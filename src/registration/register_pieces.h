@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Registers parts of meshes, without curvature, by the area in contact.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_REGISTER_PIECES_H
 #define EQUIAFFINE_SRC_REGISTRATION_REGISTER_PIECES_H
 
@@ -389,8 +390,8 @@ inline std::string reason_against_pieces(const Moments_3& source, const Moments_
 }
 
 /// Finds rigid maps or similarities that move a mesh, or a part of it, onto another one, without curvature: pieces of
-/// planes and cylinders will do. Accepts those that the area in contact proves, and that no other points contradict. The
-/// source may be inside out, as meshes are that somebody mirrored. Facets of solids stand for nothing smooth.
+/// planes and cylinders will do. Accepts those that the area in contact proves, and that no other points contradict.
+/// The source may be inside out, as meshes are that somebody mirrored. Facets of solids stand for nothing smooth.
 inline Shape_matches register_pieces(bool in_threads, const Triangles_3& source, const Triangles_3& target,
                                      const Registration_options& options, bool are_solids = false) {
   const Moments_3 areas[] = {area_moments(source), area_moments(target)};

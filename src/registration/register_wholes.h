@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Registers whole surfaces by their centroids, trying all rotations and reflections.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_REGISTER_WHOLES_H
 #define EQUIAFFINE_SRC_REGISTRATION_REGISTER_WHOLES_H
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Registers surfaces, whole or in part, by the affine frames of their points.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_REGISTRATION_OF_FRAMED_H
 #define EQUIAFFINE_SRC_REGISTRATION_REGISTRATION_OF_FRAMED_H
 
@@ -49,7 +50,8 @@ public:
         tolerance_(options.tolerance.value_or(std::clamp(
             8 * std::max(source.noise, target.noise), thresholds_.exact_tolerance, thresholds_.greatest_tolerance))) {}
 
-  /// Tries pairs that are alike, then, as long as no map is accepted, others that may be alike where structure is wrong.
+  /// Tries pairs that are alike, then, as long as no map is accepted, others that may be alike where structure is
+  /// wrong.
   void run() {
     const auto points = points_to_try(in_threads_, source_, options_.kind, thresholds_.most_points_to_try, thresholds_);
     try_all(points, thresholds_.usual);

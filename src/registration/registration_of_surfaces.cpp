@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is decided between the searches for a map: at which scales fits are compared, which maps are kept, and what to try
-// where there is none.
+// What is decided between the searches for a map: at which scales fits are compared, which maps are kept, and what to
+// try where there is none.
 #include "registration/surface_of_data.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/parallel_for.h>

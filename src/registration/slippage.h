@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Finds the infinitesimal maps along which a surface slides over itself.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_SLIPPAGE_H
 #define EQUIAFFINE_SRC_REGISTRATION_SLIPPAGE_H
 
@@ -37,9 +38,9 @@ struct Sliding_maps {
   }
 };
 
-/// The singular vectors of the matrix with a row normal . (M p + c) per point, for the maps of a kind in coordinates of the
-/// surface (Gelfand, Guibas: Shape segmentation using local slippage analysis, 2004, for rigid maps). `size` is that of
-/// the surface, and there are no maps if it is in a plane.
+/// The singular vectors of the matrix with a row normal . (M p + c) per point, for the maps of a kind in coordinates of
+/// the surface (Gelfand, Guibas: Shape segmentation using local slippage analysis, 2004, for rigid maps). `size` is
+/// that of the surface, and there are no maps if it is in a plane.
 inline Sliding_maps sliding_maps(const std::vector<Eigen::Vector3d>& points,
                                  const std::vector<Eigen::Vector3d>& normals, Map_kind kind, double size) {
   Sliding_maps result;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The moments of the solid that a mesh bounds, for meshes with holes and contradicting orientations.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_SOLID_MOMENTS_H
 #define EQUIAFFINE_SRC_REGISTRATION_SOLID_MOMENTS_H
 
@@ -18,7 +19,8 @@
 
 namespace equiaffine::internal {
 
-/// The moments of what the components of a mesh bound, which affine maps carry along, whichever way facets are oriented.
+/// The moments of what the components of a mesh bound, which affine maps carry along, whichever way facets are
+/// oriented.
 class Solid_moments {
 public:
   Solid_moments(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Fits a surface to data that are to be registered or searched for symmetries.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_SURFACE_OF_DATA_H
 #define EQUIAFFINE_SRC_REGISTRATION_SURFACE_OF_DATA_H
 

@@ -29,8 +29,8 @@ void for_each_node(const Volume_view& volume, const F& f) {
     }
 }
 
-/// Whether a spline has on the same side of a level less than nine tenths of the samples that are on the rarer side of it;
-/// judged by some of them.
+/// Whether a spline has on the same side of a level less than nine tenths of the samples that are on the rarer side of
+/// it; judged by some of them.
 bool erases_mask(const Spline& spline, const Volume_view& mask, double level) {
   constexpr std::size_t enough = 1000;
   std::array<std::size_t, 2> sizes{};

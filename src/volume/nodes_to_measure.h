@@ -28,8 +28,8 @@ namespace equiaffine::internal {
 using Volume_view = Volume_view_3<Kernel_of_samples>;
 using Volume_parts = Volume_parts_3<Kernel_of_samples>;
 
-/// Finds the nodes of a block that have a value and, if there is an isovalue, a next node along an axis on the other side:
-/// the nodes (i, j, k) of cells (i, j, k). A row of nodes is a row of words with a bit for each node.
+/// Finds the nodes of a block that have a value and, if there is an isovalue, a next node along an axis on the other
+/// side: the nodes (i, j, k) of cells (i, j, k). A row of nodes is a row of words with a bit for each node.
 class Nodes_beside_level_set {
   using Word = std::uint64_t;
 
@@ -47,7 +47,8 @@ public:
     }
   }
 
-  /// Calls visit(j, k, row) for all rows, where row[w] has the bits of the nodes 64 w to 64 w + 63 from the first one on.
+  /// Calls visit(j, k, row) for all rows, where row[w] has the bits of the nodes 64 w to 64 w + 63 from the first one
+  /// on.
   template <class Visit>
   void for_each_row(const Visit& visit) const {
     const std::size_t nodes = block_.end[0] - block_.first[0], rows = block_.end[1] - block_.first[1];
@@ -112,7 +113,8 @@ inline void check_known_cells(const Volume_view& volume, const Cell_block& neede
 /// Nodes of each part of a volume that is known here.
 using Nodes_of_parts = std::vector<std::vector<std::array<std::size_t, 3>>>;
 
-/// Blocks of few planes of the cells of each part, where they are at least `margin` nodes from the border of the volume.
+/// Blocks of few planes of the cells of each part, where they are at least `margin` nodes from the border of the
+/// volume.
 inline std::vector<std::pair<std::size_t, Cell_block>> blocks_of_planes(const Volume_parts& volume,
                                                                         std::size_t margin) {
   constexpr std::size_t planes_at_once = Volume_view::planes_at_once; // of which one more is read
@@ -135,7 +137,8 @@ inline std::vector<std::pair<std::size_t, Cell_block>> blocks_of_planes(const Vo
 }
 
 /// Some hundred or thousand nodes where noise matters and can be measured: about `most` of those beside the level set,
-/// chosen at random, or of all if no isovalue is given or nothing has it; all at least `margin` >= 1 nodes from the border.
+/// chosen at random, or of all if no isovalue is given or nothing has it; all at least `margin` >= 1 nodes from the
+/// border.
 inline Nodes_of_parts nodes_to_measure(bool in_threads, const Volume_parts& volume, std::optional<double> isovalue,
                                        std::size_t margin, std::size_t most) {
   const std::array<std::size_t, 3>& size = volume.lattice.size();

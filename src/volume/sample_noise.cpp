@@ -202,7 +202,7 @@ public:
 
   using Numbers = std::array<double, 4>;
 
-  /// The cells are those of each part that is known here. All machines get all of them.
+  /// The cells are those of each part that is known here. All processes get all of them.
   Smoothing_test_site(const Volume_parts& volume, const Nodes_of_parts& cells, double deviation)
       : volume_(volume), own_cells_(cells), deviation_(deviation) {
     const auto cells_and_slopes = measure([](const Volume_view& samples, const Cell& cell) -> Numbers {
@@ -239,7 +239,7 @@ public:
     return result;
   }
 
-  /// The number of the first machine: others may have rounded differently, and have to decide as it does.
+  /// The number of the first process: others may have rounded differently, and must decide as it does.
   double agreed(double number) const { return volume_.gather({number}).front(); }
 
 private:

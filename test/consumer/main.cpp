@@ -22,7 +22,8 @@ struct Ellipsoid {
   auto operator()(const auto& x, const auto& y, const auto& z) const { return x * x / 4.0 + y * y + z * z - 1.0; }
 };
 
-// A unit sphere has the affine Gaussian curvature 1; a map of determinant 2 makes it an ellipsoid with 1 / 2 everywhere.
+// A unit sphere has the affine Gaussian curvature 1; a map of determinant 2 makes it an ellipsoid with 1 / 2
+// everywhere.
 int main() {
   using Kernel = CGAL::Simple_cartesian<double>;
   const auto traits = equiaffine::make_analytic_traits<Kernel>(Ellipsoid(), CGAL::Bbox_3(-3, -2, -2, 3, 2, 2));

@@ -49,7 +49,8 @@ TEST(Delaunay_surface, poles_are_no_surfaces) {
   for (const Point_3& p : surface.points) ASSERT_NEAR(p.x() * p.y(), -1, 1e-13) << p;
   const auto tangent = make_analytic_traits<Kernel>(Expression_3("tan(x)-y"), box);
   for (const bool is_coarse : {false, true}) {
-    const auto sheet = delaunay_surface(tangent, is_coarse ? Delaunay_options() : options); // between the poles at +-pi/2
+    // The sheet lies between the poles at +-pi/2.
+    const auto sheet = delaunay_surface(tangent, is_coarse ? Delaunay_options() : options);
     const auto t = topology(sheet);
     EXPECT_TRUE(t.is_manifold) << is_coarse;
     EXPECT_EQ(t.components, 1u) << is_coarse;

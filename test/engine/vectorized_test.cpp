@@ -159,8 +159,8 @@ std::string output_of(const std::string& command) {
   return ::pclose(pipe) == 0 ? text : "failed: " + command;
 }
 
-// If they shared more, the linker could use an inline function compiled for AVX-512 in the whole program. An initializer
-// would run on any processor.
+// If they shared more, the linker could use an inline function compiled for AVX-512 in the whole program. An
+// initializer would run on any processor.
 TEST(vectorized, objects_for_some_processors_share_no_code_but_their_entry_and_run_nothing_at_start) {
   const std::string names = EQUIAFFINE_OBJECTS_FOR_PROCESSORS;
   for (std::size_t begin = 0; begin < names.size();) {

@@ -118,8 +118,8 @@ std::vector<Face> faces_of(const Mesh& mesh) {
   return result;
 }
 
-/// Halves a segment where the value changes most, and returns how steep it is there at last: very much at a jump. Returns
-/// 0 if the value is not known at an end.
+/// Halves a segment where the value changes most, and returns how steep it is there at last: very much at a jump.
+/// Returns 0 if the value is not known at an end.
 double steepest(const Fit& fit, Point_3 p, Point_3 q) {
   double a = fit.value(p), b = fit.value(q);
   for (int n = 0; n < 18 && std::isfinite(a) && std::isfinite(b); ++n) {

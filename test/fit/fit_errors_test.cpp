@@ -17,8 +17,8 @@ namespace fit_errors_test {
 using namespace equiaffine;
 using namespace equiaffine::test;
 
-// Sums of bumps whose ball held the whole shape: all degrees left out the same detail, and K was within its error at two
-// thirds of the vertices.
+// Sums of bumps whose ball held the whole shape: all degrees left out the same detail, and K was within its error at
+// two thirds of the vertices.
 TEST(Fitted_structures_long, what_every_degree_leaves_out_is_seen_in_smaller_balls) {
   const auto bumps = formula("exp(-(x-.5)^2-y^2-z^2)+exp(-(x+.6)^2-(y-.4)^2-z^2)+exp(-x^2-(y+.7)^2-(z-.3)^2)-.45",
                              CGAL::Bbox_3(-2.5, -2.5, -2.5, 2.5, 2.5, 2.5));

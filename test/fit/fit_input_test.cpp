@@ -23,8 +23,8 @@ using namespace equiaffine::test;
 using Point_3 = Fit_kernel::Point_3;
 using Vector_3 = Fit_kernel::Vector_3;
 
-/// Returns the part of the points of `a`, among those with numbers, where K differs from that of `b` by no more than the
-/// errors that both estimate.
+/// Returns the part of the points of `a`, among those with numbers, where K differs from that of `b` by no more than
+/// the errors that both estimate.
 double part_that_agrees(const std::vector<Fitted_structure_3<double>>& a,
                         const std::vector<Fitted_structure_3<double>>& b, std::size_t count) {
   double known = 0, agree = 0;

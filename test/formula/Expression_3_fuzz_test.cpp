@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any text is an expression or refused, and the number types agree on what it computes. No tolerance is needed: intervals
-// contain what is rounded, and where nothing is rounded, all ways to compute a number give the same.
+// Any text is an expression or refused, and the number types agree on what it computes. No tolerance is needed:
+// intervals contain what is rounded, and where nothing is rounded, all ways to compute a number give the same.
 #include "support/fuzz_target.h"
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/number/Interval.h>
@@ -80,8 +80,8 @@ void check_blocks(const Expression_3& f) {
   }
 }
 
-/// Puts the text, if it is no equation, among operands of min, max and abs, and compares the expression with its part on
-/// boxes around the points.
+/// Puts the text, if it is no equation, among operands of min, max and abs, and compares the expression with its part
+/// on boxes around the points.
 void check_parts(std::string_view text) {
   if (text.find('=') != std::string_view::npos) return;
   const std::string sum = "(" + std::string(text) + ")";

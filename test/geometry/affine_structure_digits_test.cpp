@@ -64,9 +64,9 @@ TEST(Affine_structure, invariants_keep_their_digits_where_a_nearly_parabolic_dir
   }
 }
 
-// In these coordinates two of the three charts have basis vectors that are nearly parallel for their lengths. The values
-// are from 70-digit arithmetic; roundings of the derivatives change K and H of the first point by 5e-8, of the last by
-// 2e-4 of themselves.
+// In these coordinates two of the three charts have basis vectors that are nearly parallel for their lengths. The
+// values are from 70-digit arithmetic; roundings of the derivatives change K and H of the first point by 5e-8, of the
+// last by 2e-4 of themselves.
 TEST(Affine_structure, invariants_keep_their_digits_where_a_thin_direction_is_oblique) {
   const char* formula = "(101*x-100*y)^3+(100*y-100*x)^2*z-sin((101*x-100*y)*z)";
   const auto s = local_structure(expand(Expression_3(formula), {.3, .296, .6})).affine;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any bytes are triangles in OBJ and in STL or refused, and triangles that are read, written as OBJ and read again are the
-// same.
+// Any bytes are triangles in OBJ and in STL or refused, and triangles that are read, written as OBJ and read again are
+// the same.
 #include "support/fuzz_target.h"
 #include <equiaffine/io/read_points.h>
 #include <equiaffine/io/write_mesh.h>

@@ -108,7 +108,7 @@ TEST(Marching_cubes, skipping_empty_space_changes_nothing_on_skew_lattices) {
 }
 
 TEST(Marching_cubes, skipping_empty_space_does_not_take_the_end_of_the_domain_for_a_surface) {
-  // The function changes its sign on a plane and is undefined on one side of another, of which its bounds know nothing.
+  // The function changes its sign on a plane and is undefined on one side of another, which its bounds do not show.
   for (const char* text : {"(y-0.3)*(1+0.01*sqrt(x))", "(y-0.3)*(1+0.01*sqrt(-x))",
                            // Here it becomes undefined just above the surface, where blocks of nodes begin.
                            "(x-0.3)*(1+0.01*sqrt(0.33-x+0.2*y))", "(y-0.3)*(1+0.01*sqrt(0.33-y+0.2*z))",
@@ -277,8 +277,8 @@ TEST(Marching_cubes, a_surface_that_leaves_the_box_has_a_boundary_there) {
 }
 
 TEST(Marching_cubes, poles_are_no_surfaces) {
-  // Poles halfway between nodes and elsewhere, steep and flat ones, that of a logarithm, and those of a plane across the
-  // grid, of planes that cross, and of a sphere.
+  // Poles halfway between nodes and elsewhere, steep and flat ones, that of a logarithm, and those of a plane across
+  // the grid, of planes that cross, and of a sphere.
   for (const char* text : {"1/x", "1/(x-0.01)", "1/x^3", "x/abs(x)^1.25", "x/abs(x)*log(abs(x)/3)", "1/(x-y)",
                            "tan(x+1.5)", "1/(x*y*z)", "1/(x^2+y^2+z^2-0.5)"}) {
     const auto traits = make_analytic_traits<Kernel>(Expression_3(text), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));

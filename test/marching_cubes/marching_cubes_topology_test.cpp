@@ -138,7 +138,8 @@ TYPED_TEST(Marching_cubes_topology, surfaces_through_nodes_beside_nodes_without_
   EXPECT_GT(sum.moved_vertices, 0u);
 }
 
-/// Two cells side by side of Chernyaev's case 7.4.2, of which an implementation of Lewiner's tables gave a triangle twice.
+/// Two cells side by side of Chernyaev's case 7.4.2, of which an implementation of Lewiner's tables gave a triangle
+/// twice.
 TEST(Marching_cubes_topology, no_triangle_occurs_twice_between_two_ambiguous_cells) {
   const std::vector<double> values = {13, -1, -1, -7, -1, 1, 7, -7, 15, -9, -3, -1};
   const auto surface = marching_cubes_of_array(std::span<const double>(values), {2, 2, 3}, 0.0);

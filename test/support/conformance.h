@@ -46,8 +46,8 @@ TYPED_TEST_P(Conformance, value_is_the_constant_coefficient) {
 }
 
 // The remainder of an expansion of order 4 shrinks by 2^5 when the distance is halved, until rounding is reached. A
-// wrong coefficient of any order would make it shrink by less. A model may say that its derivatives are diffuse, with the
-// part of a gradient by which they differ from those of the value at most.
+// wrong coefficient of any order would make it shrink by less. A model may say that its derivatives are diffuse, with
+// the part of a gradient by which they differ from those of the value at most.
 TYPED_TEST_P(Conformance, taylor_is_the_expansion_of_value) {
   const auto traits = TypeParam::make();
   if constexpr (requires { TypeParam::disagreement; }) {

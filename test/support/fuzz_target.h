@@ -23,8 +23,8 @@ inline void expect(bool holds, const std::string& what_holds) {
   if (!holds) throw std::logic_error("it does not hold that " + what_holds);
 }
 
-/// Runs `read` and returns whether it accepts its input. What it refuses, it has to refuse with what is wrong and, after
-/// a colon or semicolon, what to do.
+/// Runs `read` and returns whether it accepts its input. What it refuses, it has to refuse with what is wrong and,
+/// after a colon or semicolon, what to do.
 template <class Read>
 bool accepts(const Read& read) {
   try {

@@ -62,7 +62,8 @@ protected:
   }
   ~Program_test() override { std::filesystem::remove_all(root_); }
 
-  /// Runs the program to its end. `standard_output` is a file to write to, such as a device, instead of a temporary one.
+  /// Runs the program to its end. `standard_output` is a file to write to, such as a device, instead of a temporary
+  /// one.
   Result run(std::vector<std::string> arguments, const std::string& input = {},
              const std::string& standard_output = {}) const {
     Result result = wait_for(start(std::move(arguments), input, standard_output));

@@ -75,8 +75,8 @@ TEST(Affine_gradients, have_the_unit_of_length_that_they_should_whatever_it_is) 
   }
 }
 
-// The level sets of g and g^2 are the same; where g is small, the Hessian of g^2 is nearly of rank one, and rounding of its
-// coefficients costs a factor of 1 / g.
+// The level sets of g and g^2 are the same; where g is small, the Hessian of g^2 is nearly of rank one, and rounding of
+// its coefficients costs a factor of 1 / g.
 TEST(Affine_gradients, lose_no_more_digits_than_coefficients_where_the_function_is_nearly_a_square) {
   const auto g = [](const auto& x, const auto& y, const auto& z) {
     return x * x * x * x + 0.5 * y * y + 2. * z * z + 0.3 * x * y - 1.;
@@ -97,8 +97,8 @@ TEST(Affine_gradients, lose_no_more_digits_than_coefficients_where_the_function_
     }
 }
 
-// The right values are from 70-digit arithmetic; roundings of the derivatives change them by 1e-7 of themselves, those of
-// the last point by 9e-3.
+// The right values are from 70-digit arithmetic; roundings of the derivatives change them by 1e-7 of themselves, those
+// of the last point by 9e-3.
 TEST(Affine_gradients, keep_their_digits_where_a_thin_direction_is_oblique) {
   const CGAL::Bbox_3 box(-1, -1, -1, 1, 1, 1);
   const auto thin =

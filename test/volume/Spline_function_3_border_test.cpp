@@ -75,7 +75,8 @@ TEST(Spline_function_3, a_mask_beside_the_border_has_the_spline_that_it_has_far_
 
 TEST(Spline_function_3, lines_that_end_at_zero_do_not_vote_by_their_rounding_errors) {
   const Lattice_3 lattice = unit_lattice(12, 40, 12);
-  // Along x the samples are linear, and zero up to rounding at the end of most lines, which are more than those along y.
+  // Along x the samples are linear, and zero up to rounding at the end of most lines, which are more than those along
+  // y.
   const auto f = [](double x, double y, double) { return (x - 11) / 7 * std::sin(y / 4) + 1e-16 * std::cos(y); };
   EXPECT_EQ(Spline_function_3(sample(lattice, f), {.spline_degree = 7}).border_degree(), 9);
 }

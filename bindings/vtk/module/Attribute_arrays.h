@@ -22,7 +22,8 @@ class Attribute_arrays {
 public:
   explicit Attribute_arrays(const Attribute_selection& selection, const Error_rows& errors = {});
 
-  /// Adds those points of a block whose places in it are given. Its columns are those of the selection, and then the errors.
+  /// Adds those points of a block whose places in it are given. Its columns are those of the selection, and then the
+  /// errors.
   void add(const Vertex_attributes& block, std::span<const std::size_t> places);
 
   /// A scalar, by its name and its numbers.

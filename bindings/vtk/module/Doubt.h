@@ -30,8 +30,8 @@ public:
   /// Numbers of these rows have columns of errors, unless they are UNTESTED: then nothing is known of them.
   Doubt(Error_rows rows, Doubtful doubtful) : rows_(std::move(rows)), doubtful_(doubtful), counts_(2 * rows_.size()) {}
 
-  /// Counts the numbers of a block of vertices without those marked as ghosts, and makes unknown ones NaN if they are to be
-  /// HIDDEN.
+  /// Counts the numbers of a block of vertices without those marked as ghosts, and makes unknown ones NaN if they are
+  /// to be HIDDEN.
   void add(Vertex_attributes& block, std::span<const unsigned char> ghosts);
 
   /// What the pages of the program would say of a surface.

@@ -13,8 +13,8 @@
 
 namespace equiaffine {
 
-/// Numbers that are added a block at a time, and given to an array of VTK in the end. There is one copy of them at every
-/// time, while arrays of VTK take more than twice the memory when they grow.
+/// Numbers that are added a block at a time, and given to an array of VTK in the end. There is one copy of them at
+/// every time, while arrays of VTK take more than twice the memory when they grow.
 template <class Number>
 class Growing_array {
 public:

@@ -40,7 +40,8 @@ struct Image_pieces {
   std::array<int, 3> first;                 ///< the indices in VTK's extents of the first node of the lattice
   std::vector<Image_piece> pieces;
   bool are_whole = false; ///< whether every process has the whole image, and not some of its cells
-  /// Whether the surface of the pieces is wanted: one process that makes several pieces has all images in the first one.
+  /// Whether the surface of the pieces is wanted: one process that makes several pieces has all images in the first
+  /// one.
   bool are_wanted = true;
 };
 
@@ -54,8 +55,8 @@ struct Piece_request {
 /// Finds the array of an image that is the function, and null if there is none.
 using Find_array = std::function<vtkDataArray*(vtkImageData*)>;
 
-/// The images of an input that are not empty, each with the array that is found, as its scalars, and with nothing else but
-/// marks of the cells of other pieces.
+/// The images of an input that are not empty, each with the array that is found, as its scalars, and with nothing else
+/// but marks of the cells of other pieces.
 std::vector<vtkSmartPointer<vtkImageData>> images_of(vtkDataObject* input, int component, const Find_array& find);
 
 /// Finds out, with the other processes, which cells are whose, and has them exchange the ghost levels that are missing.
@@ -66,8 +67,8 @@ Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, con
 /// The cells of the lattice with samples in an image.
 Cell_block cells_of(const Image_pieces& pieces, vtkImageData* image);
 
-/// The samples of a piece in some cells that its image has: a component of its scalars, which are copied if their numbers do
-/// not lie one after the other.
+/// The samples of a piece in some cells that its image has: a component of its scalars, which are copied if their
+/// numbers do not lie one after the other.
 Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& piece, int component,
                               const Cell_block& cells);
 

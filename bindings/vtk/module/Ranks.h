@@ -51,8 +51,8 @@ public:
   void greatest(std::span<double> numbers) const;  ///< by the greatest ones
   void add(Volume_survey& survey) const;           ///< by the survey of all pieces
 
-  /// The numbers of all processes, in the order of the processes. Each may have another number of them. Checks whether all
-  /// processes came here.
+  /// The numbers of all processes, in the order of the processes. Each may have another number of them. Checks whether
+  /// all processes came here.
   std::vector<double> gather(const std::vector<double>& numbers) const;
 
 private:
@@ -60,8 +60,8 @@ private:
   int number_ = 0, count_ = 1;
 };
 
-/// Calls work() and checks in all processes whether one of them has thrown. Where work() has the processes tell each other
-/// anything, a check must come first, so that they learn of an error of one of them.
+/// Calls work() and checks in all processes whether one of them has thrown. Where work() has the processes tell each
+/// other anything, a check must come first, so that they learn of an error of one of them.
 template <class Work>
 void together(const Ranks& ranks, const Work& work) {
   std::string error;

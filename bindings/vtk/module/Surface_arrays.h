@@ -35,8 +35,8 @@ public:
   /// Computes the attributes of some points, and then the errors.
   using Compute = std::function<Vertex_attributes(std::span<const Kernel::Point_3>, std::span<const Point_status>)>;
 
-  /// The blocks of cells belong to this process, and the lattice has so many nodes. Ghosts are marked if there may be some.
-  /// Numbers of the rows have errors, unless these are UNTESTED.
+  /// The blocks of cells belong to this process, and the lattice has so many nodes. Ghosts are marked if there may be
+  /// some. Numbers of the rows have errors, unless these are UNTESTED.
   Surface_arrays(const Attribute_selection& selection, const Error_rows& rows, Doubtful doubtful,
                  std::vector<Cell_block> own, const std::array<std::size_t, 3>& nodes, bool has_ghost_points,
                  bool has_ghost_cells)

@@ -11,8 +11,8 @@ class vtkMultiProcessController;
 
 namespace equiaffine {
 
-/// Replaces images by images that have so many more levels of points around them, as far as other images have them, of this
-/// process or of others.
+/// Replaces images by images that have so many more levels of points around them, as far as other images have them, of
+/// this process or of others.
 void exchange_ghost_levels(std::vector<vtkSmartPointer<vtkImageData>>& images, int levels,
                            vtkMultiProcessController* controller);
 

@@ -6,7 +6,8 @@
 
 namespace equiaffine {
 
-/// Makes memory larger, which is null at first. On Linux its pages are moved, not copied, and do not mix with other memory.
+/// Makes memory larger, which is null at first. On Linux its pages are moved, not copied, and do not mix with other
+/// memory.
 /// \throw std::bad_alloc
 void* resized_memory(void* memory, std::size_t bytes);
 

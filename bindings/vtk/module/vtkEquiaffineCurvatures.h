@@ -12,8 +12,8 @@
  *
  * Polynomials are fitted to the points around each. Where vtkCurvatures shows the angles of the faces, and noise, this
  * filter shows the smooth surface, as far as the points tell it, and says how far: every number has an estimate of its
- * error. Faces say which points are neighbors; polygons and strips are cut into triangles. Points without faces are fitted
- * by their nearest points, with the active normals if there are some. About 1 ms per point.
+ * error. Faces say which points are neighbors; polygons and strips are cut into triangles. Points without faces are
+ * fitted by their nearest points, with the active normals if there are some. About 1 ms per point.
  *
  * The output is the input with more point data, for n points:
  *
@@ -23,7 +23,8 @@
  * | NAME`_error` | double | 1 | the estimated error of a selected attribute, infinity if nothing is known; angles in degrees |
  * | `status` | unsigned char | 1 | 0 regular, 1 parabolic, 2 singular, 3 outside: no fit |
  *
- * In several processes each fits the points of its piece, so that numbers beside the edge of a piece have larger errors.
+ * In several processes each fits the points of its piece, so that numbers beside the edge of a piece have larger
+ * errors.
  */
 class EQUIAFFINEVTK_EXPORT vtkEquiaffineCurvatures : public vtkPolyDataAlgorithm {
 public:

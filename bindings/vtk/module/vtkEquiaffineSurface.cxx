@@ -160,8 +160,8 @@ void check_that_there_are_numbers(const Views& views, const Ranks& ranks) {
   ranks.check(rows[0] == 0 && rows[1] > 0 ? "no point of the image has a finite number; choose another array" : "");
 }
 
-/// The cells around a block where the function is known, some of them at least, if there are samples at the nodes of the
-/// cells `have`.
+/// The cells around a block where the function is known, some of them at least, if there are samples at the nodes of
+/// the cells `have`.
 Cell_block known_cells(const Cell_block& block, const Cell_block& have, const Image_pieces& pieces,
                        const Volume_options& options) {
   const Cell_block all = cells_of(pieces.lattice->size());

@@ -18,11 +18,11 @@ struct Volume_options;
  * @class vtkEquiaffineSurface
  * @brief extracts an isosurface of an image, with its Euclidean and equi-affine structure
  *
- * The surface is that of the spline through the samples of a vtkImageData, or of the images of a composite data set such as
- * a vtkPartitionedDataSet, which are pieces of one image. Its topology is that of the trilinear interpolant; its points lie on the level set of the
- * spline, whose derivatives up to order four give the structure there. An image has one of the numeric types of VTK, any
- * direction matrix, left-handed ones included, and any extent. NaN marks a point without a value, at which the surface
- * ends.
+ * The surface is that of the spline through the samples of a vtkImageData, or of the images of a composite data set
+ * such as a vtkPartitionedDataSet, which are pieces of one image. Its topology is that of the trilinear interpolant;
+ * its points lie on the level set of the spline, whose derivatives up to order four give the structure there. An image
+ * has one of the numeric types of VTK, any direction matrix, left-handed ones included, and any extent. NaN marks a
+ * point without a value, at which the surface ends.
  *
  * The output is a vtkPolyData of triangles with, for n points:
  *
@@ -49,10 +49,11 @@ struct Volume_options;
  *
  * In several processes every one meshes its piece, and all pieces together are the mesh of the whole image without
  * EstimateErrors, bit for bit, as are the field data. The filter asks upstream for the ghost levels that it needs
- * (GetNumberOfGhostLevels()), and gets them from the pieces beside if the source has none. It must execute in all processes, with the same properties. One
- * process may make the pieces one after the other: it then asks for the whole image, and field data are of a piece. Pieces
- * may differ where the image has the level at more than four points in a row and is less around them: such parts without
- * area are dropped if they are known whole, and else have triangles of less than 1e-6 of the spacing.
+ * (GetNumberOfGhostLevels()), and gets them from the pieces beside if the source has none. It must execute in all
+ * processes, with the same properties. One process may make the pieces one after the other: it then asks for the whole
+ * image, and field data are of a piece. Pieces may differ where the image has the level at more than four points in a
+ * row and is less around them: such parts without area are dropped if they are known whole, and else have triangles of
+ * less than 1e-6 of the spacing.
  *
  * Hidden points count as others. The status_counts are there with the status.
  *
@@ -82,8 +83,8 @@ public:
   enum { QUASI_INTERPOLATION = 0, CONVOLUTION = 1, INTERPOLATION = 2 };
   ///@{
   /**
-   * How samples become a spline: QUASI_INTERPOLATION by default. CONVOLUTION smooths, and needs up to three ghost levels
-   * less. INTERPOLATION needs the whole image in one process.
+   * How samples become a spline: QUASI_INTERPOLATION by default. CONVOLUTION smooths, and needs up to three ghost
+   * levels less. INTERPOLATION needs the whole image in one process.
    */
   vtkSetClampMacro(SplineScheme, int, 0, 2);
   vtkGetMacro(SplineScheme, int);
@@ -121,8 +122,8 @@ public:
 
   ///@{
   /**
-   * Whether affine curvatures that are unknown are NaN, for which ParaView has a color of its own: their estimated error
-   * is more than half of their size; on by default.
+   * Whether affine curvatures that are unknown are NaN, for which ParaView has a color of its own: their estimated
+   * error is more than half of their size; on by default.
    */
   vtkSetMacro(HideUnknown, bool);
   vtkGetMacro(HideUnknown, bool);
@@ -149,7 +150,9 @@ public:
 
   enum { PROJECTED = 0, LINEAR = 1 };
   ///@{
-  /** Where vertices lie: PROJECTED on the level set of the spline, the default, or on that of the LINEAR interpolant. */
+  /**
+   * Where vertices lie: PROJECTED on the level set of the spline, the default, or on that of the LINEAR interpolant.
+   */
   vtkSetClampMacro(Vertices, int, 0, 1);
   vtkGetMacro(Vertices, int);
   void SetVerticesToProjected() { this->SetVertices(PROJECTED); }

@@ -29,8 +29,8 @@ namespace equiaffine {
 ///
 /// The standard deviation is computed from 35 independent disturbances of the expansion, each as large as the noise
 /// makes it, for which the curvatures are computed again. An estimate cannot see what both splines miss, such as
-/// details smaller than a voxel. It is NaN where a curvature does not exist. Takes some 10 microseconds per point. Copies
-/// share the immutable data.
+/// details smaller than a voxel. It is NaN where a curvature does not exist. Takes some 10 microseconds per point.
+/// Copies share the immutable data.
 template <class Kernel>
 class Curvature_error_3 {
 public:

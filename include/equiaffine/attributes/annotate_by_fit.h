@@ -73,8 +73,9 @@ namespace equiaffine {
 
 /// Puts the local structure of the surface that the vertices of a mesh are samples of, as `fitted_structures` finds it,
 /// into the property maps that are named parameters, as annotate() with a function does, and estimates of their errors.
-/// `vertex_structure_map` has a Fitted_structure_3<double>; no map is read. With AGAINST_GRADIENT normals are on the other
-/// side. The named parameters are those of fitted_structures(), the maps of annotate(), and maps of the estimated errors:
+/// `vertex_structure_map` has a Fitted_structure_3<double>; no map is read. With AGAINST_GRADIENT normals are on the
+/// other side. The named parameters are those of fitted_structures(), the maps of annotate(), and maps of the estimated
+/// errors:
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|

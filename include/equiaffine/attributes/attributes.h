@@ -28,8 +28,8 @@
 #include <utility>
 #include <vector>
 
-// Columns of attributes are computed block by block: f is expanded at the points of a block, the attributes of all of them
-// are computed in packs, and those of points that are not regular again, one by one.
+// Columns of attributes are computed block by block: f is expanded at the points of a block, the attributes of all of
+// them are computed in packs, and those of points that are not regular again, one by one.
 namespace equiaffine::internal {
 
 /// The expansions of f at a block of points, and the errors of its second derivatives there. Point i is lane
@@ -232,10 +232,10 @@ Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, 
 }
 
 /// Computes the selected attributes of points, one column of doubles per scalar. This takes one Taylor expansion of
-/// order 4 per point, and one of order 5, or up to 40 more of order 4, if the norm of a gradient is selected. CGAL::Sequential_tag and
-/// CGAL::Parallel_tag give the same numbers, bit for bit. Points are computed in packs, and the numbers are those of
-/// local_structure_at: bit for bit if the compiler rounds each product and each sum (-ffp-contract=off), else to within
-/// rounding.
+/// order 4 per point, and one of order 5, or up to 40 more of order 4, if the norm of a gradient is selected.
+/// CGAL::Sequential_tag and CGAL::Parallel_tag give the same numbers, bit for bit. Points are computed in packs, and
+/// the numbers are those of local_structure_at: bit for bit if the compiler rounds each product and each sum
+/// (-ffp-contract=off), else to within rounding.
 ///
 /// `sampled` has statuses, as in local_structure_at, and the areas for `vertex_area` and `affine_area`, which are NaN
 /// without them. Either is empty or has one entry per point.

@@ -84,10 +84,10 @@ std::array<double, 2> parts_known(const Fitted_function_traits_3<Kernel>& fit,
   return parts;
 }
 
-/// Moves a remesh to a fit. If the data choose its scale, and many vertices would be beside the fit, that scale is too large
-/// for the shape: smaller ones are tried while they leave fewer vertices beside the fit and numbers known at about as
-/// many data. `fit` becomes the fit at such a scale if it leaves a third fewer. `refit(options)` makes a fit, or throws
-/// Input_error.
+/// Moves a remesh to a fit. If the data choose its scale, and many vertices would be beside the fit, that scale is too
+/// large for the shape: smaller ones are tried while they leave fewer vertices beside the fit and numbers known at
+/// about as many data. `fit` becomes the fit at such a scale if it leaves a third fewer. `refit(options)` makes a fit,
+/// or throws Input_error.
 template <class ConcurrencyTag, class Kernel, class Refit>
 Whole_motion_3 motion_to_best_fit(Whole_remesh_3<Kernel>& remesh, Fitted_function_traits_3<Kernel>& fit,
                                   Fit_options options, const std::vector<typename Kernel::Point_3>& data,
@@ -158,8 +158,8 @@ namespace equiaffine {
 /// If the data choose the scale, it may be too large for parts of the shape: then more than 5 % of the vertices are
 /// beside the fit. Up to four scales, each smaller by the square root of 2, are tried while they leave fewer vertices
 /// beside the fit, and while the affine area density and the affine Gaussian curvature stay known to 50 % at about as
-/// many of the data, with a loss of 10 % of them at most. The fit at a smaller scale is taken if it leaves a third fewer
-/// vertices beside it.
+/// many of the data, with a loss of 10 % of them at most. The fit at a smaller scale is taken if it leaves a third
+/// fewer vertices beside it.
 ///
 /// The fit has creases by the feature angle of `fit_options`, and the remesh keeps edges by that of `remesh_options`:
 /// usually both are the same.
@@ -173,7 +173,8 @@ namespace equiaffine {
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
 /// Takes the time of remesh_on_fit(), and of up to five fits. CGAL::Parallel_tag gives the same numbers.
-/// \throw Input_error and std::invalid_argument as fitted_structures() and remesh_on_fit() do. The mesh is as it was then.
+/// \throw Input_error and std::invalid_argument as fitted_structures() and remesh_on_fit() do. The mesh is as it was
+/// then.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, internal::Parameter_chain... Parameters>
 Remesh_by_fit<internal::Kernel_of_vertices<Mesh, internal::Joined_parameters<Parameters...>>>
 remesh_by_fit(Mesh& mesh, const Fit_options& fit_options = {}, const Remesh_options& remesh_options = {},

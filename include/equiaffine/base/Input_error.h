@@ -99,7 +99,8 @@ namespace equiaffine {
 /// `printable`.
 /// `excerpt()` is empty or shows the place: the offending text and, below it, a caret.
 /// `field()` is empty or the member of an options struct that is wrong, such as "min_overlap" or "fit.scale": then
-/// `what()` is the field, a colon and the `sentence()`, so that a front end can put its own name of the option before it.
+/// `what()` is the field, a colon and the `sentence()`, so that a front end can put its own name of the option before
+/// it.
 class Input_error : public std::runtime_error {
 public:
   /// Makes an error of two texts.

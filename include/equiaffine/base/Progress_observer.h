@@ -29,10 +29,10 @@ namespace equiaffine {
 /// \endcode
 ///
 /// A computation is made of stages, most of them short: loops over vertices, layers of a grid, or candidates for a map.
-/// The function is called in the observing thread, at most once in `interval`, while that thread works on a stage. If it
-/// throws, the work of all threads on the computation ends within one step of each, and the exception leaves the function
-/// of the library that was called. Results do not depend on an observer. What CGAL computes for the library, as most of a
-/// Delaunay mesh, is seen where it asks the library for points.
+/// The function is called in the observing thread, at most once in `interval`, while that thread works on a stage. If
+/// it throws, the work of all threads on the computation ends within one step of each, and the exception leaves the
+/// function of the library that was called. Results do not depend on an observer. What CGAL computes for the library,
+/// as most of a Delaunay mesh, is seen where it asks the library for points.
 ///
 /// The function may call the library, which is not observed then. An observer is destroyed in the thread that made it.
 /// One observer in a thread hides those made before it until it is destroyed, in the reverse order of making.
@@ -69,8 +69,8 @@ public:
   Progress_observer(const Progress_observer&) = delete;
   Progress_observer& operator=(const Progress_observer&) = delete;
 
-  /// A loop of which the observer of this thread, if there is one, sees how far it is. The outermost loop is a stage; loops
-  /// within it, also those in other threads, only end when the work ends.
+  /// A loop of which the observer of this thread, if there is one, sees how far it is. The outermost loop is a stage;
+  /// loops within it, also those in other threads, only end when the work ends.
   class Loop {
   public:
     /// Begins a loop of `size` steps.

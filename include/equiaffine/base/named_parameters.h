@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Named parameters in the style of CGAL, for property maps and data: `parameters::vertex_point_map(map).comments(lines)`.
-// internal/named_parameter_list.h has the list. The types are our own, since CGAL's list of names is closed and differs
-// between its versions 5 and 6.
+// Named parameters in the style of CGAL, for property maps and data:
+// `parameters::vertex_point_map(map).comments(lines)`. internal/named_parameter_list.h has the list. The types are our
+// own, since CGAL's list of names is closed and differs between its versions 5 and 6.
 #ifndef EQUIAFFINE_BASE_NAMED_PARAMETERS_H
 #define EQUIAFFINE_BASE_NAMED_PARAMETERS_H
 
@@ -218,8 +218,8 @@ constexpr void explain_options() {
                 "the options of this function are a struct, and named parameters follow it: write {} for the defaults");
 }
 
-/// All named parameters of a call in one chain, those of CGAL under the tags of ours. Of two with the same name the last
-/// one counts.
+/// All named parameters of a call in one chain, those of CGAL under the tags of ours. Of two with the same name the
+/// last one counts.
 template <Parameter_chain Chain = No_parameters>
 auto joined_parameters(const Chain& chain = {}) {
   return appended(No_parameters(), chain);
@@ -240,8 +240,8 @@ namespace equiaffine::parameters {
 /// Every parameter has its default.
 inline internal::No_parameters default_values() { return {}; }
 
-/// Several chains of named parameters, of equiaffine and of CGAL, as one chain, for functions that take a chain for each
-/// of two surfaces. Of two parameters with the same name the last one counts.
+/// Several chains of named parameters, of equiaffine and of CGAL, as one chain, for functions that take a chain for
+/// each of two surfaces. Of two parameters with the same name the last one counts.
 template <internal::Parameter_chain... Chains>
 internal::Joined_parameters<Chains...> joined(const Chains&... chains) {
   return internal::joined_parameters(chains...);

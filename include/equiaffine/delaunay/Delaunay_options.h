@@ -37,8 +37,8 @@ inline Clip_domain_3 clip_domain(const Clip& clip, const CGAL::Bbox_3& box) {
   return std::get<Clip_shape>(clip) == Clip_shape::BALL ? Clip_domain_3::ball_in(box) : Clip_domain_3(box);
 }
 
-/// The default of the greatest radius of facets, for a function in a box: 1/50 of the diagonal of that box, or of the box
-/// of a Clip_domain_3.
+/// The default of the greatest radius of facets, for a function in a box: 1/50 of the diagonal of that box, or of the
+/// box of a Clip_domain_3.
 inline double default_radius(const Clip& clip, const CGAL::Bbox_3& box) {
   const auto* const domain = std::get_if<Clip_domain_3>(&clip);
   return internal::default_facet_radius(domain ? domain->bbox() : box);

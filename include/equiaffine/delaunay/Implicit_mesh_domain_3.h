@@ -157,8 +157,8 @@ private:
     return std::nullopt;
   }
 
-  /// Whether there may be roots between a and b = a + d that the signs there do not show, and the segment is longer than
-  /// pieces need to be.
+  /// Whether there may be roots between a and b = a + d that the signs there do not show, and the segment is longer
+  /// than pieces need to be.
   bool is_to_be_halved(const Point_3& a, const Point_3& b, const Vector_3& d, bool may_have_pole) const {
     constexpr double piece_beside_pole = 1.0 / 16; // its length / the certified length
     const double length = std::sqrt(CGAL::to_double(d.squared_length()));
@@ -192,8 +192,8 @@ private:
 
 namespace equiaffine {
 
-/// A model of CGAL's MeshDomain_3: the part of a clip domain where f < 0. Its surface is the zero set of f, patch 1, and
-/// the part of the border of the clip domain where f < 0, patch 2. Use it in CGAL::make_mesh_3 in place of
+/// A model of CGAL's MeshDomain_3: the part of a clip domain where f < 0. Its surface is the zero set of f, patch 1,
+/// and the part of the border of the clip domain where f < 0, patch 2. Use it in CGAL::make_mesh_3 in place of
 /// CGAL::Labeled_mesh_domain_3. Vertices on the surface are exact up to rounding, every component of the zero set that
 /// is closed within the clip domain gets initial points, and parts of the surface outside of the clip domain do no
 /// harm. The edges of a box, and those where the zero set meets the border, are no features: facets cut them off by as

@@ -173,10 +173,10 @@ namespace equiaffine {
 /// component was missed, however small. A closed regular surface gives a closed oriented 2-manifold.
 ///
 /// Features are made of edges of the mesh: the curves where the surface meets the border of the clip domain,
-/// `feature_curves`, and, with the option `parabolic_curves`, the parabolic curves with their crossings and their ends on
-/// the border. Where features are nearer to each other than the radius, or meet in sharp corners, edges are shorter, and
-/// angles at the corners smaller. Features nearer to each other than a fiftieth of the radius may lose edges; the mesh
-/// is then not certified, and need not be manifold there. Features much smaller than the radius may be missed.
+/// `feature_curves`, and, with the option `parabolic_curves`, the parabolic curves with their crossings and their ends
+/// on the border. Where features are nearer to each other than the radius, or meet in sharp corners, edges are shorter,
+/// and angles at the corners smaller. Features nearer to each other than a fiftieth of the radius may lose edges; the
+/// mesh is then not certified, and need not be manifold there. Features much smaller than the radius may be missed.
 /// Nodes of the surface, such as the apex of a cone, are vertices, and so are apexes where f has no gradient, such as
 /// that of half a cone or the corner of a cube. The curves where the surface ends since f is not defined beyond become
 /// features, too, to a hundredth of the radius. Near other singular points the mesh ends in facets of radius/8,
@@ -189,8 +189,9 @@ namespace equiaffine {
 /// The named parameters `geom_traits` and `verbose` are accepted for compatibility with CGAL; ignored. Segments of
 /// `feature_curves` are short beside the facets; the mesh has vertices of its own on them.
 /// \throw Input_error for bad options
-/// \throw std::invalid_argument unless the clip domain has an interior and is finite, the diagonal of its box is at least
-/// 1e-40 and, as its coordinates, at most 1e40, and the radius is at least 1024 epsilons of the greatest coordinate
+/// \throw std::invalid_argument unless the clip domain has an interior and is finite, the diagonal of its box is at
+/// least 1e-40 and, as its coordinates, at most 1e40, and the radius is at least 1024 epsilons of the greatest
+/// coordinate
 ///
 /// The result is the same on every run. One thread computes it: 20,000 triangles take about 0.2 seconds, and 10 to 40
 /// evaluations per triangle.

@@ -66,9 +66,9 @@ std::vector<double> sorted_magnitudes(const std::vector<double>& sorted);
 /// unit of the numbers, is the least half-width worth a color. A relative half-width is at least a millionth, as pages
 /// store single precision. Numbers look like zero instead of like noise if at least half of them are below the
 /// resolution and that largest |value| is below a thousand resolutions, since rounding grows beside a parabolic curve:
-/// their range is a billion resolutions, which is the unit of the numbers where the resolution is 1e-9 of it. `error` is
-/// what the numbers are typically off: a half-width is at least 8 errors, so that numbers that are equal within their
-/// errors have one color. It does not take the range of numbers of one sign across zero.
+/// their range is a billion resolutions, which is the unit of the numbers where the resolution is 1e-9 of it. `error`
+/// is what the numbers are typically off: a half-width is at least 8 errors, so that numbers that are equal within
+/// their errors have one color. It does not take the range of numbers of one sign across zero.
 /// \pre `sorted` is ascending and finite, `magnitudes` has its absolute values, ascending
 Color_range color_range_of_sorted(const std::vector<double>& sorted, const std::vector<double>& magnitudes,
                                   double clip_percent, double resolution, double error = 0);

@@ -47,8 +47,8 @@ namespace equiaffine::vectorized {
 /// BASELINE there are some on x86-64 under Linux.
 std::vector<Instruction_set> instruction_sets();
 
-/// Meshes a level set as equiaffine::marching_cubes() does. It works in threads if the library is compiled with TBB, and
-/// evaluates f as often as that function does.
+/// Meshes a level set as equiaffine::marching_cubes() does. It works in threads if the library is compiled with TBB,
+/// and evaluates f as often as that function does.
 ///
 /// \code{.cpp}
 /// using namespace equiaffine;
@@ -65,8 +65,8 @@ Isosurface_3<Kernel> marching_cubes(const Level_set_traits_3<Spline>& level_set,
                                     const Marching_cubes_options& options = {},
                                     Instruction_set set = instruction_sets().back());
 
-/// Computes the selected attributes of points as equiaffine::compute_attributes() does, by the same number of expansions,
-/// in threads if the library is compiled with TBB. `sampled` is what that function takes.
+/// Computes the selected attributes of points as equiaffine::compute_attributes() does, by the same number of
+/// expansions, in threads if the library is compiled with TBB. `sampled` is what that function takes.
 /// \throw std::invalid_argument if it has another number of statuses or areas, or `set` is not in instruction_sets()
 Vertex_attributes compute_attributes(const Level_set_traits_3<Formula>& level_set,
                                      std::span<const Kernel::Point_3> points, const Attribute_selection& selection,

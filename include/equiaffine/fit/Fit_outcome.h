@@ -42,8 +42,8 @@ struct Fit_move_report {
   std::size_t number_on_fit() const { return number_of[std::size_t(Fit_outcome::ON_FIT)]; }
 };
 
-/// The report of remesh_on_fit(). Distances are the greatest ones of vertices and of centers of triangles; infinity from a
-/// mesh of triangles without area.
+/// The report of remesh_on_fit(). Distances are the greatest ones of vertices and of centers of triangles; infinity
+/// from a mesh of triangles without area.
 struct Fit_remesh_report : Fit_move_report {
   double edge_length = 0;        ///< the length of edges that was aimed at; 0 if the edges stayed what they were
   double distance_from_data = 0; ///< of the remesh from the mesh given

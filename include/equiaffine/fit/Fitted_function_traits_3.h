@@ -83,8 +83,8 @@ Close_sheets close_sheets(bool in_threads, const Fitted_data_3& fit, const CGAL:
 #pragma GCC visibility pop
 #endif
 
-/// How far the affine curvatures of a fit at a point can be trusted, from 0 to 1: 1 / (1 + 10 e) for an estimated error e
-/// of the affine Gaussian curvature K as a part of |K| + H^2, which affine maps keep.
+/// How far the affine curvatures of a fit at a point can be trusted, from 0 to 1: 1 / (1 + 10 e) for an estimated error
+/// e of the affine Gaussian curvature K as a part of |K| + H^2, which affine maps keep.
 template <class FT>
 double certainty_of_fit(const Fitted_structure_3<FT>& fit) {
   const auto& affine = fit.structure.affine;
@@ -240,8 +240,8 @@ public:
   }
 
   /// The sheets of the surface that Marching Cubes on a grid on bbox() does not tell apart, where `longest_step` is the
-  /// longest one of the steps of the grid. These are data beside others that are not connected with them nearby, or have
-  /// opposed normals.
+  /// longest one of the steps of the grid. These are data beside others that are not connected with them nearby, or
+  /// have opposed normals.
   template <class ConcurrencyTag = CGAL::Sequential_tag>
   Close_sheets close_sheets(const FT& longest_step) const {
     return internal::close_sheets(runs_in_threads<ConcurrencyTag>(), function_->data(), box_,

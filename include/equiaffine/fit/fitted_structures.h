@@ -49,8 +49,8 @@ struct Fitted_structure_3 {
 
 namespace equiaffine::internal {
 
-/// The diagonals of boxes of points whose curvatures fits give: affine curvatures, and what they are computed from, leave
-/// double precision in other units, where the function of a fit still exists. Points that are all equal have no
+/// The diagonals of boxes of points whose curvatures fits give: affine curvatures, and what they are computed from,
+/// leave double precision in other units, where the function of a fit still exists. Points that are all equal have no
 /// curvatures in any unit.
 struct Extent_of_fit {
   static constexpr double least = 1e-40, greatest = 1e40;
@@ -196,21 +196,22 @@ namespace equiaffine {
 /// below 1e-4 of the spacing, the greater degree answers, and a smaller ball tells its error.
 ///
 /// Scans and coarse meshes have sensible curvatures at a scale only. These are by definition, see doc/conventions.md,
-/// those of polynomials in space of degree 4, or of `degree`, fitted within 1.14 of the scale. By default the data choose:
-/// no scale where they resolve the surface, else the smallest one at which K is known to 20 % at half of the vertices, at
-/// most an eighth of the diagonal. With a scale of 0 curvatures are the surface's own. Fits are made at most 0.02 of the
-/// scale apart, and errors are 2 to 2.5 times the
-/// standard deviation that noise and sampling make of the numbers at that scale, as halves of scans tell. At a scale that
-/// the data choose they also count what the scale mixes where the data are exact, such as a jump of the curvature.
+/// those of polynomials in space of degree 4, or of `degree`, fitted within 1.14 of the scale. By default the data
+/// choose: no scale where they resolve the surface, else the smallest one at which K is known to 20 % at half of the
+/// vertices, at most an eighth of the diagonal. With a scale of 0 curvatures are the surface's own. Fits are made at
+/// most 0.02 of the scale apart, and errors are 2 to 2.5 times the standard deviation that noise and sampling make of
+/// the numbers at that scale, as halves of scans tell. At a scale that the data choose they also count what the scale
+/// mixes where the data are exact, such as a jump of the curvature.
 ///
 /// A mesh that is mapped by an affine map of determinant 1 gets the same affine curvatures to within rounding, since
 /// neighborhoods are balls in coordinates in which the edges have no preferred direction; an edge counts as at most
-/// three times as long as the lower quartile of those at its vertex. `scale` and `noise` are lengths there, divided by the
-/// factor of volumes to the power 1/3. Creases are those of the given coordinates.
+/// three times as long as the lower quartile of those at its vertex. `scale` and `noise` are lengths there, divided by
+/// the factor of volumes to the power 1/3. Creases are those of the given coordinates.
 ///
 /// Statuses: OUTSIDE for a vertex that no fit belongs to, since it has no faces, or fewer than some 20 vertices are
 /// connected with it, or since it is an outlier: away from its neighbors and theirs by more than 1.5 times their mean
-/// distance from their mean. PARABOLIC for one whose K_e is zero within its estimated error, as on a plane or a cylinder.
+/// distance from their mean. PARABOLIC for one whose K_e is zero within its estimated error, as on a plane or a
+/// cylinder.
 ///
 /// Fits do not reach over creases: edges that bend by more than `feature_angle`, by default 60 degrees, and that follow
 /// each other for ten mean edges, and ten more for each loose end, since noise makes edges sharp, too. Each side has
@@ -286,8 +287,8 @@ std::vector<Fitted_structure_3<double>> fitted_structures(const Points& points, 
 }
 
 /// Returns the local structure at points with polygons between them, in the order of the points. A polygon is a range
-/// of positions of points. It need not be a mesh: equal points count once, inconsistently oriented polygons are flipped to
-/// match the first one of their component, and the surface is cut open where it is not a manifold.
+/// of positions of points. It need not be a mesh: equal points count once, inconsistently oriented polygons are flipped
+/// to match the first one of their component, and the surface is cut open where it is not a manifold.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|

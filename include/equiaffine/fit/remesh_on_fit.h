@@ -145,8 +145,8 @@ private:
 };
 
 /// Remeshes a copy of a mesh so that its topology stays, triangles cross each other only where some did before, and
-/// both meshes are within a tenth of an edge of each other: with edges of a length, or shorter ones if that is too long.
-/// If none of them will do, the mesh stays as it is.
+/// both meshes are within a tenth of an edge of each other: with edges of a length, or shorter ones if that is too
+/// long. If none of them will do, the mesh stays as it is.
 template <class Kernel>
 class Whole_remesh_3 {
 public:
@@ -412,12 +412,12 @@ namespace equiaffine {
 /// Remeshes a triangle mesh by CGAL's isotropic remeshing, and moves its vertices onto the zero set of a fit to it, see
 /// move_to_fit(). The mesh stays whole: it has the same components, border loops and Euler characteristic, and its
 /// triangles cross each other only within an edge of places where some of those given did. The remesh is within a tenth
-/// of an edge of the given mesh, and the given mesh of the remesh, at vertices and centers of triangles: where detail is
-/// finer than the edges, the given ones are kept, or parts of them. No vertex moves farther from there to the fit than
-/// half of the edges at it, or half of the spacing of the data if that is larger. If edges of the length that was asked
-/// for do not allow that, shorter ones are tried, down to a quarter of the given ones, and then the given triangles. A
-/// length beyond the diagonal of the mesh counts as that diagonal. Vertices in no triangle are removed. A mesh with a
-/// triangle that is a line or a point keeps all its triangles.
+/// of an edge of the given mesh, and the given mesh of the remesh, at vertices and centers of triangles: where detail
+/// is finer than the edges, the given ones are kept, or parts of them. No vertex moves farther from there to the fit
+/// than half of the edges at it, or half of the spacing of the data if that is larger. If edges of the length that was
+/// asked for do not allow that, shorter ones are tried, down to a quarter of the given ones, and then the given
+/// triangles. A length beyond the diagonal of the mesh counts as that diagonal. Vertices in no triangle are removed. A
+/// mesh with a triangle that is a line or a point keeps all its triangles.
 ///
 /// Edges that are constrained, or sharper than the feature angle, stay where they are: a fit that does not end there
 /// makes them round. Vertices beside them go to the fit only if that is within a fifth of an edge. Sharp edges count
@@ -434,8 +434,8 @@ namespace equiaffine {
 /// ms per vertex, for each of the lengths that are tried, and as much again up to seven times where edges are kept.
 /// CGAL::Parallel_tag gives the same numbers.
 /// \throw Input_error if an option makes no sense, or edges of that length would make more than 10^8 triangles, or more
-/// than 10^4 parts of an edge. \throw std::invalid_argument if a face is not a triangle, or a coordinate is not finite. The
-/// mesh is as it was then.
+/// than 10^4 parts of an edge. \throw std::invalid_argument if a face is not a triangle, or a coordinate is not finite.
+/// The mesh is as it was then.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, class Kernel,
           internal::Parameter_chain... Parameters>
 Fit_remesh_report remesh_on_fit(Mesh& mesh, const Fitted_function_traits_3<Kernel>& fit,

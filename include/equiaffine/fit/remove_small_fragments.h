@@ -45,10 +45,10 @@ std::vector<bool> borders_of(const Isosurface_3<Kernel>& surface) {
 namespace equiaffine {
 
 /// Removes small fragments from the zero set of a fit, a Fitted_function_traits_3, as a sampler made it: the connected
-/// components that have a border and are no larger than what the band of one point reaches. They lie beside the border of
-/// the surface, where the band is ragged. A polynomial needs the points of a larger part. Components that the box of the
-/// fit cuts off, on a grid of that many nodes per axis, stay. `to_data` maps points of the surface to the coordinates
-/// of the data, if they are not in these.
+/// components that have a border and are no larger than what the band of one point reaches. They lie beside the border
+/// of the surface, where the band is ragged. A polynomial needs the points of a larger part. Components that the box of
+/// the fit cuts off, on a grid of that many nodes per axis, stay. `to_data` maps points of the surface to the
+/// coordinates of the data, if they are not in these.
 ///
 /// Takes linear time, and a search for the nearest datum for each component with a border.
 template <class Kernel, class Fit, class To_data = std::identity>

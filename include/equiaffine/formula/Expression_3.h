@@ -27,8 +27,8 @@
 #endif
 namespace equiaffine {
 
-/// The error of an expression with a name that is neither a variable nor among the constants. Who has a value for it, or
-/// a slider, can parse the text again with that constant.
+/// The error of an expression with a name that is neither a variable nor among the constants. Who has a value for it,
+/// or a slider, can parse the text again with that constant.
 class Unknown_name_error : public Input_error {
 public:
   /// Makes an error of two texts, as Input_error, and the name.
@@ -65,8 +65,9 @@ namespace equiaffine {
 ///     primary  = number | name | function "(" sum {"," sum} ")" | "(" sum ")"
 ///
 /// Numbers are written as 2, .5 or 1e-3, whatever the locale. Names are x, y, z, pi, e and those of `constants`.
-/// Functions of one argument: sqrt cbrt exp log (natural) sin cos tan asin acos atan sinh cosh tanh abs erf floor sign; of
-/// two: atan2(y, x) hypot pow fmod; of two or more: min max. Angles are in radians. Nesting is limited to 1000 levels.
+/// Functions of one argument: sqrt cbrt exp log (natural) sin cos tan asin acos atan sinh cosh tanh abs erf floor sign;
+/// of two: atan2(y, x) hypot pow fmod; of two or more: min max. Angles are in radians. Nesting is limited to 1000
+/// levels.
 ///
 /// Numbers, constants and what is computed from them alone are rounded to double for every number type, so that all
 /// types evaluate the same function. For double, operators and functions are those of the language and of `<cmath>`,
@@ -76,9 +77,9 @@ namespace equiaffine {
 ///
 /// A number type T is regular, constructible from double and has + - * / and unary -; the functions above are found by
 /// argument-dependent lookup. Those with substitutes: hypot, min, max and sign (`<` and `!=` decide), pow
-/// (exp(b * log(a)), and products for integer exponents). T may have no erf, floor and fmod, and an expression that needs
-/// them throws std::domain_error then. Used where they exist: square(T), pow(T, double), pow(T, int), and the four
-/// operators with a double on either side.
+/// (exp(b * log(a)), and products for integer exponents). T may have no erf, floor and fmod, and an expression that
+/// needs them throws std::domain_error then. Used where they exist: square(T), pow(T, double), pow(T, int), and the
+/// four operators with a double on either side.
 ///
 /// Equal subexpressions are evaluated once. Evaluation costs one instruction per remaining operation. It takes no
 /// memory on the heap if T is trivially default constructible and 32 slots for intermediate results are enough. Calls
@@ -86,8 +87,8 @@ namespace equiaffine {
 class Expression_3 {
 public:
   /// Parses n characters in O(n log n). Throws Input_error, with the column in what() and a caret under it in
-  /// excerpt(), for a text outside the grammar and for a constant subexpression that is not finite: an Unknown_name_error
-  /// for a name that is neither a variable nor among `constants`; also Input_error for an entry
+  /// excerpt(), for a text outside the grammar and for a constant subexpression that is not finite: an
+  /// Unknown_name_error for a name that is neither a variable nor among `constants`; also Input_error for an entry
   /// of `constants` that is not finite or whose name is not an identifier or has a meaning already.
   explicit Expression_3(std::string_view text, const std::map<std::string, double>& constants = {})
       : Expression_3(std::make_shared<const std::string>(text),

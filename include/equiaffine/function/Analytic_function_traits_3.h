@@ -30,13 +30,13 @@ namespace equiaffine {
 ///     Analytic_function_traits_3<Kernel, Sphere> traits(Sphere(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
 ///
 /// f is called with FT, Interval and jets of both; Marching Cubes, max_distance_to_surface and compute_attributes call
-/// it with jets of Pack<FT>, too. Elementary functions must be found by argument-dependent lookup: `std::exp(x)` does not
-/// compile, since the standard library has no exponential of a jet; write `using std::exp; return exp(x);`. With three
-/// template parameters, or `auto`, for the arguments and `auto` for intermediate results it computes only the derivatives
-/// that its structure leaves nonzero.
+/// it with jets of Pack<FT>, too. Elementary functions must be found by argument-dependent lookup: `std::exp(x)` does
+/// not compile, since the standard library has no exponential of a jet; write `using std::exp; return exp(x);`. With
+/// three template parameters, or `auto`, for the arguments and `auto` for intermediate results it computes only the
+/// derivatives that its structure leaves nonzero.
 ///
-/// Bounds are the whole line on a box where a comparison in f has no single answer. A function that cannot take Interval
-/// has no bounds if it has a constraint that excludes this type.
+/// Bounds are the whole line on a box where a comparison in f has no single answer. A function that cannot take
+/// Interval has no bounds if it has a constraint that excludes this type.
 template <class Kernel, class Function>
 class Analytic_function_traits_3 {
   static constexpr bool takes_intervals = internal::CallableWith<Function, Interval, Interval, Interval>;

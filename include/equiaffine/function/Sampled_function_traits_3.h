@@ -25,13 +25,13 @@ namespace equiaffine {
 /// differs from the sample there.
 ///
 /// A spline of degree n needs n + 1 nodes along each axis. Through fewer there is none: values off the nodes are NaN,
-/// points are OUTSIDE, and vertices of Marching Cubes stay at their linear positions, UNCONVERGED. Degree 5 needs 6 nodes,
-/// 7, the default, needs 8.
+/// points are OUTSIDE, and vertices of Marching Cubes stay at their linear positions, UNCONVERGED. Degree 5 needs 6
+/// nodes, 7, the default, needs 8.
 ///
-/// This is a model of ImplicitFunctionTraits_3 with first-order bounds and expansions, with a lattice, and cell by cell:
-/// Marching Cubes and the attributes need the memory of the samples, in the type that they have, and that of a block of
-/// cells for each thread, while other algorithms need one more number per node (Spline_function_3). Copies share the
-/// immutable data.
+/// This is a model of ImplicitFunctionTraits_3 with first-order bounds and expansions, with a lattice, and cell by
+/// cell: Marching Cubes and the attributes need the memory of the samples, in the type that they have, and that of a
+/// block of cells for each thread, while other algorithms need one more number per node (Spline_function_3). Copies
+/// share the immutable data.
 template <class Kernel>
 class Sampled_function_traits_3 {
 public:

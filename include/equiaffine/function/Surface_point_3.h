@@ -194,8 +194,8 @@ private:
 };
 
 /// Searches by inverse quadratic interpolation where it is safe, else by bisection (Chandrupatla, A new hybrid
-/// quadratic/bisection algorithm for finding the zero of a nonlinear function without using derivatives, 1997), and sets
-/// whether the zero that is found may be a jump.
+/// quadratic/bisection algorithm for finding the zero of a nonlinear function without using derivatives, 1997), and
+/// sets whether the zero that is found may be a jump.
 template <class Kernel, class Traits>
 Surface_point_3<Kernel> chandrupatla(const Traits& traits, const Bracket_3<Kernel>& bracket, bool& is_doubtful) {
   using FT = typename Kernel::FT;

@@ -37,9 +37,9 @@ FT sum_of_products(FT sum, const std::array<FT, 3>& x, const std::array<FT, 3>& 
   return sum + error;
 }
 
-/// The inverse of an affine map. That of CGAL has errors of the condition of the map or more, which its use multiplies by
-/// the condition again. A step of Newton's method squares them, beside what they would be at best. Not finite where there
-/// is no inverse.
+/// The inverse of an affine map. That of CGAL has errors of the condition of the map or more, which its use multiplies
+/// by the condition again. A step of Newton's method squares them, beside what they would be at best. Not finite where
+/// there is no inverse.
 template <class Kernel>
 CGAL::Aff_transformation_3<Kernel> inverse_map(const CGAL::Aff_transformation_3<Kernel>& map) {
   using FT = typename Kernel::FT;

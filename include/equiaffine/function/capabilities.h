@@ -3,8 +3,8 @@
 // optional member of the model and a free function, which calls the member or, where there is none, falls back on what
 // every model has. They have the same name, but for the member `lattice(size)` of sampling_lattice(). The wrappers
 // Level_set_traits_3, Transformed_function_traits_3, Any_function_3 and, below, Batch_function_traits_3 have the
-// capabilities of what they wrap. doc/concepts/capabilities.md says what each promises, and what happens without the member;
-// test/support/conformance.h checks it for every model and wrapper.
+// capabilities of what they wrap. doc/concepts/capabilities.md says what each promises, and what happens without the
+// member; test/support/conformance.h checks it for every model and wrapper.
 #ifndef EQUIAFFINE_FUNCTION_CAPABILITIES_H
 #define EQUIAFFINE_FUNCTION_CAPABILITIES_H
 
@@ -244,8 +244,8 @@ Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const
   else return internal::zero_on_segment<Kernel_of<Traits>>(traits, a, b, fa, fb);
 }
 
-/// Writes the samples of a function at the nodes of a block of its lattice, i fastest: the block begins with node `first`, and
-/// has `size` nodes along each axis.
+/// Writes the samples of a function at the nodes of a block of its lattice, i fastest: the block begins with node
+/// `first`, and has `size` nodes along each axis.
 template <LatticeImplicitFunctionTraits_3 Traits>
 void samples(const Traits& traits, const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& size,
              std::span<typename Traits::FT> out) {

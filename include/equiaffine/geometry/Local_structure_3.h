@@ -204,9 +204,9 @@ Regular_structure_3<FT> regular_structure(const Jet_3<FT>& jet, const std::array
 }
 
 /// Computes the status of a point that regular_structure() does not call regular, and the numbers that exist there.
-/// `is_steep` is the one that regular_structure() returned. Takes about 1000 floating-point operations, in natural units:
-/// the status does not depend on the units of the function and of space, and intermediate numbers stay in the range of
-/// FT.
+/// `is_steep` is the one that regular_structure() returned. Takes about 1000 floating-point operations, in natural
+/// units: the status does not depend on the units of the function and of space, and intermediate numbers stay in the
+/// range of FT.
 template <class FT>
 Local_structure_3<FT> irregular_structure(const Jet_3<FT>& jet, bool is_steep, const FT& rounding = FT(0)) {
   Local_structure_3<FT> nothing{Point_status::SINGULAR, internal::no_euclidean_structure<FT>(),

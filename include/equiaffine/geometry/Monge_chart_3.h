@@ -23,8 +23,8 @@ struct Pivot_3 {
   std::array<FT, 3> reciprocals; ///< 1 / f_i for all three axes
 };
 
-/// Chooses the axis whose largest |f_ij| / |f_i f_j| is smallest. An axis with f_j = 0 does not count. Among equals it is
-/// that with the largest |f_i|.
+/// Chooses the axis whose largest |f_ij| / |f_i f_j| is smallest. An axis with f_j = 0 does not count. Among equals it
+/// is that with the largest |f_i|.
 ///
 /// Two axes are compared without the curvature that they share: x with y without xy, then the better one with z.
 template <class FT>

@@ -203,8 +203,8 @@ struct Real_eigenvalues {
 };
 
 /// The eigenvalues of B: real for a definite metric, for which B is self-adjoint; else by the sign of the discriminant,
-/// which counts as zero (a double eigenvalue) within the rounding errors of B. The one of smaller magnitude follows from
-/// the product, K, where the difference would cancel.
+/// which counts as zero (a double eigenvalue) within the rounding errors of B. The one of smaller magnitude follows
+/// from the product, K, where the difference would cancel.
 template <class FT>
 Real_eigenvalues<FT> affine_principal_curvatures(const Affine_invariants_3<FT>& s, const Mask_of<FT>& is_definite) {
   using std::abs;

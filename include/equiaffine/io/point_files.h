@@ -22,11 +22,11 @@
 
 namespace equiaffine::IO {
 
-/// Adds the points of a file, `.ply`, `.off`, `.obj`, `.stl`, `.xyz` or `.csv`, to a CGAL::Point_set_3 with property maps for the
-/// numbers at them, and returns the comments of the file: NAME of double for each column NAME, of Vector_3 for three
-/// columns NAME_x, NAME_y, NAME_z, `normal` for nx, ny, nz, and `status` of Point_status. Maps that are
-/// given are filled instead; they are those of annotate() and annotate_by_fit() but `vertex_structure_map`. A container of
-/// points with `push_back` gets the points alone.
+/// Adds the points of a file, `.ply`, `.off`, `.obj`, `.stl`, `.xyz` or `.csv`, to a CGAL::Point_set_3 with property
+/// maps for the numbers at them, and returns the comments of the file: NAME of double for each column NAME, of Vector_3
+/// for three columns NAME_x, NAME_y, NAME_z, `normal` for nx, ny, nz, and `status` of Point_status. Maps that are
+/// given are filled instead; they are those of annotate() and annotate_by_fit() but `vertex_structure_map`. A container
+/// of points with `push_back` gets the points alone.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|

@@ -115,8 +115,8 @@ std::vector<std::string> read_polygon_mesh(const std::string& path, Graph& mesh,
 /// CGAL::IO::write_polygon_mesh(), whose parameters of precision and encoding are not needed: every double comes back.
 ///
 /// A CGAL::Surface_mesh has those of its maps written whose values are numbers or Vector_3, under their names without
-/// `v:` and with `_` for blanks, commas and quotes, and `v:status`, unless maps are given. The maps are named parameters
-/// as in read_polygon_mesh().
+/// `v:` and with `_` for blanks, commas and quotes, and `v:status`, unless maps are given. The maps are named
+/// parameters as in read_polygon_mesh().
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|

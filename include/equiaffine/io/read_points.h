@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads points, with or without faces, from CSV, XYZ, PLY, OFF, OBJ or STL, as the name of a file says, with all that came
-// with them, and writes them to CSV with more columns.
+// Reads points, with or without faces, from CSV, XYZ, PLY, OFF, OBJ or STL, as the name of a file says, with all that
+// came with them, and writes them to CSV with more columns.
 #ifndef EQUIAFFINE_IO_READ_POINTS_H
 #define EQUIAFFINE_IO_READ_POINTS_H
 
@@ -128,9 +128,9 @@ Indexed_triangle_mesh_3<Kernel> read_OFF(std::istream& stream, const std::string
   return mesh;
 }
 
-/// Reads OBJ: points and faces, the latter cut into triangles. Normals, textures, colors, lines and groups are left out.
-/// `name` stands for the file in messages. Throws `Input_error` for what is not an OBJ file, and for faces with vertices that
-/// do not exist.
+/// Reads OBJ: points and faces, the latter cut into triangles. Normals, textures, colors, lines and groups are left
+/// out. `name` stands for the file in messages. Throws `Input_error` for what is not an OBJ file, and for faces with
+/// vertices that do not exist.
 template <class Kernel>
 Indexed_triangle_mesh_3<Kernel> read_OBJ(std::istream& stream, const std::string& name) {
   Indexed_triangle_mesh_3<Kernel> mesh;
@@ -138,8 +138,8 @@ Indexed_triangle_mesh_3<Kernel> read_OBJ(std::istream& stream, const std::string
   return mesh;
 }
 
-/// Reads STL, binary or text: triangles, whose corners with the same coordinates become one point. Normals are left out.
-/// `name` stands for the file in messages. Throws `Input_error` for what is not a complete file.
+/// Reads STL, binary or text: triangles, whose corners with the same coordinates become one point. Normals are left
+/// out. `name` stands for the file in messages. Throws `Input_error` for what is not a complete file.
 template <class Kernel>
 Indexed_triangle_mesh_3<Kernel> read_STL(std::istream& stream, const std::string& name) {
   Indexed_triangle_mesh_3<Kernel> mesh;
@@ -150,11 +150,11 @@ Indexed_triangle_mesh_3<Kernel> read_STL(std::istream& stream, const std::string
 /// The comment that points of an XYZ file get whose columns 4 to 6 have no names and are no normals.
 inline constexpr const char* xyz_colors_note = "columns 4 to 6 are colors, not normals, which would have the length 1";
 
-/// Reads points as lines of x y z, or of x y z and three numbers, with blanks between the numbers. The three numbers are
-/// normals, columns nx, ny, nz, if their lengths are 1 or nearly, else colors, columns red, green, blue, which a comment
-/// of the result says. A first line such as `//X Y Z R G B`, as CloudCompare writes it, or `# x y z intensity` names any
-/// columns. Other lines behind // or # and empty lines are left out. `name` stands for the file in messages. Throws
-/// `Input_error` for another line, and for numbers that are neither normals nor colors.
+/// Reads points as lines of x y z, or of x y z and three numbers, with blanks between the numbers. The three numbers
+/// are normals, columns nx, ny, nz, if their lengths are 1 or nearly, else colors, columns red, green, blue, which a
+/// comment of the result says. A first line such as `//X Y Z R G B`, as CloudCompare writes it, or `# x y z intensity`
+/// names any columns. Other lines behind // or # and empty lines are left out. `name` stands for the file in messages.
+/// Throws `Input_error` for another line, and for numbers that are neither normals nor colors.
 template <class Kernel>
 Annotated_mesh_3<Kernel> read_XYZ(std::istream& stream, const std::string& name) {
   Annotated_mesh_3<Kernel> result;

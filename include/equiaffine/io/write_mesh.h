@@ -130,8 +130,8 @@ void write_OBJ(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh
   internal::write_OBJ_of(stream, mesh.points, mesh.triangles, attributes);
 }
 
-/// Writes STL, binary: triangles in single precision with their own unit normals; it holds no attributes. Those with two
-/// corners that coincide in single precision are left out, so that the mesh of a reader, which joins corners that
+/// Writes STL, binary: triangles in single precision with their own unit normals; it holds no attributes. Those with
+/// two corners that coincide in single precision are left out, so that the mesh of a reader, which joins corners that
 /// coincide, is closed where this one is.
 template <class Kernel>
 void write_STL(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh) {

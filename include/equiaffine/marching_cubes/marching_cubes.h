@@ -80,7 +80,7 @@ public:
 
   /// Halves a block along all its long axes until the function's bounds on the block and one node around it have one
   /// sign, or the block is small and is sampled. The margin makes every cell that has a node in a skipped block free of
-  /// the surface, also if the function has no value at some nodes there, of which its bounds know nothing.
+  /// the surface, also if the function has no value at some nodes there, which its bounds do not show.
   void sample_near_surface(const Node_block& block) { sample_part(function_.traits(), block); }
 
 private:
@@ -197,8 +197,8 @@ std::size_t number_of_cells(const std::vector<Inner_vertex<FT>>& vertices) {
   return cells;
 }
 
-/// Repairs the mesh, then removes the vertices at poles, which the repairs may renumber. `properties` are arrays with an
-/// entry per vertex.
+/// Repairs the mesh, then removes the vertices at poles, which the repairs may renumber. `properties` are arrays with
+/// an entry per vertex.
 template <class Function, class FT, class Kernel, class... Properties>
 Repair_report repair_and_remove_poles(const Function& function, const Isosurface_plan& plan,
                                       const std::vector<Inner_vertex<FT>>& inner_vertices, const Grid_rows& suspects,
@@ -320,8 +320,8 @@ namespace equiaffine {
 ///
 /// Empty space is skipped if the function is a model of BoundedImplicitFunctionTraits_3 and has built-in numbers: f is
 /// evaluated near its zero set only. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for
-/// bit. Takes one evaluation per node (if empty space is skipped, per node near the surface), and per vertex 4 more and 4
-/// to 6 with gradient. The memory in use is the output, one bit per node, and a buffer for some planes of nodes.
+/// bit. Takes one evaluation per node (if empty space is skipped, per node near the surface), and per vertex 4 more and
+/// 4 to 6 with gradient. The memory in use is the output, one bit per node, and a buffer for some planes of nodes.
 ///
 /// The named parameters `geom_traits` and `verbose` are accepted for compatibility with CGAL; ignored.
 /// \throw Input_error for bad options
@@ -348,8 +348,8 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const typen
   return internal::without_mesh(std::move(surface));
 }
 
-/// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph: see to_face_graph(). Vertices are made
-/// in the order of the points, which is that of `vertex_status` in the result. Further named parameters are
+/// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph: see to_face_graph(). Vertices are
+/// made in the order of the points, which is that of `vertex_status` in the result. Further named parameters are
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|

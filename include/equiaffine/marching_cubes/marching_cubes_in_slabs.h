@@ -45,8 +45,8 @@ struct Isosurface_slab_3 {
   std::vector<std::array<std::size_t, 3>> triangles;
   /// One per point, for the mesh of a block of cells.
   std::vector<Vertex_id> vertex_ids = {};
-  /// The least id in the triangles of the whole mesh at each point, with vertex ids. Of the blocks that have a vertex, one has
-  /// the cell of this id: to that block the vertex belongs.
+  /// The least id in the triangles of the whole mesh at each point, with vertex ids. Of the blocks that have a vertex,
+  /// one has the cell of this id: to that block the vertex belongs.
   std::vector<Vertex_id> least_ids = {};
 };
 
@@ -76,9 +76,9 @@ inline void check_block(const Cell_block& all, const Cell_block& block, const Ce
   }
 }
 
-/// Makes the part of a surface that belongs to a block of cells, in slabs. To which cell a triangle belongs follows from
-/// the ids of its vertices, whatever it was repaired to, so that blocks need not know of each other. A slab is made with
-/// some cells more on all sides, as many as the repairs beside it look at.
+/// Makes the part of a surface that belongs to a block of cells, in slabs. To which cell a triangle belongs follows
+/// from the ids of its vertices, whatever it was repaired to, so that blocks need not know of each other. A slab is
+/// made with some cells more on all sides, as many as the repairs beside it look at.
 template <class ConcurrencyTag, class Traits>
 class Isosurface_of_block {
   using Kernel = Kernel_of<Traits>;
@@ -294,9 +294,10 @@ Isosurface_totals marching_cubes_in_slabs(const Traits& traits, const Visit& vis
   return internal::Isosurface_in_slabs<ConcurrencyTag, Traits>(function, options).run(visit);
 }
 
-/// Meshes the zero set of a function in a block of cells of its lattice, one slab after the other, with ids of vertices.
-/// The meshes of blocks, such as different machines make, are together the mesh of marching_cubes(): every triangle is in
-/// one of them, with the same points and ids, and vertices at the sides of blocks are in all that have triangles there.
+/// Meshes the zero set of a function in a block of cells of its lattice, one slab after the other, with ids of
+/// vertices. The meshes of blocks, such as different processes make, are together the mesh of marching_cubes(): every
+/// triangle is in one of them, with the same points and ids, and vertices at the sides of blocks are in all that have
+/// triangles there.
 ///
 /// The function is evaluated in the cells that are `known` only, by default in those of the lattice. They go
 /// `cells_around_block` beyond the block on every side, or to the end of the lattice. Where a closed part without area

@@ -20,7 +20,8 @@
 
 namespace equiaffine {
 
-/// Thrown by a comparison of intervals whose answer depends on the numbers in them. Who asked for bounds has to do without.
+/// Thrown by a comparison of intervals whose answer depends on the numbers in them. Who asked for bounds has to do
+/// without.
 struct Undecided_comparison : std::exception {
   /// The message of the exception.
   const char* what() const noexcept override { return "a comparison of intervals is undecided"; }

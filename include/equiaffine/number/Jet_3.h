@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Jet_3, Taylor polynomials of three variables, with its functions: division, powers, elementary functions, order, steps.
+// Jet_3, Taylor polynomials of three variables, with its functions: division, powers, elementary functions, order,
+// steps.
 #ifndef EQUIAFFINE_NUMBER_JET_3_H
 #define EQUIAFFINE_NUMBER_JET_3_H
 

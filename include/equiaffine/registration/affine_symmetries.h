@@ -220,8 +220,8 @@ Affine_symmetries_3<Kernel_of<Traits>> affine_symmetries(const Traits& traits, c
 /// | `normal_map` | property map | estimated | from elements of a range to normals |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
-/// \throw Input_error if an option makes no sense. \throw std::invalid_argument if a coordinate is not finite, a mesh has
-/// no faces or no area, or a range no points.
+/// \throw Input_error if an option makes no sense. \throw std::invalid_argument if a coordinate is not finite, a mesh
+/// has no faces or no area, or a range no points.
 template <class ConcurrencyTag = CGAL::Sequential_tag, internal::Mesh_or_points Data,
           internal::Parameter_chain... Parameters>
 auto affine_symmetries(const Data& data, const Symmetry_options& options = {}, const Parameters&... given) {

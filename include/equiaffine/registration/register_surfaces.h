@@ -231,8 +231,8 @@ Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source
 /// | `normal_map` | property map | estimated | from elements of a range to normals |
 /// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
-/// \throw Input_error if an option makes no sense. \throw std::invalid_argument if a coordinate is not finite, a mesh has
-/// no faces, or a range no points.
+/// \throw Input_error if an option makes no sense. \throw std::invalid_argument if a coordinate is not finite, a mesh
+/// has no faces, or a range no points.
 template <class ConcurrencyTag = CGAL::Sequential_tag, internal::Mesh_or_points Source, internal::Mesh_or_points Target,
           internal::Parameter_chain Parameters = internal::No_parameters,
           internal::Parameter_chain Target_parameters = internal::No_parameters>

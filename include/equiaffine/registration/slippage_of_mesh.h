@@ -25,8 +25,8 @@ struct Infinitesimal_map_3 {
 struct Affine_slippage_3 {
   std::vector<Infinitesimal_map_3> generators; ///< a basis
   /// The surface slides off itself by this part of its size: the rms distance of its points after motions of finite
-  /// length, or, where frames of a function tell, the rms of the normal part of the velocity, beside the largest one. It
-  /// is 0 where only rounding is left.
+  /// length, or, where frames of a function tell, the rms of the normal part of the velocity, beside the largest one.
+  /// It is 0 where only rounding is left.
   double rms = 0;
 
   std::size_t dimension() const { return generators.size(); } ///< of the group; 0 if the surface does not slide
@@ -50,11 +50,11 @@ Affine_slippage_3 slippage_of_triangles(bool in_threads, const Triangles_3& mesh
 
 namespace equiaffine {
 
-/// Returns how a mesh, points with polygons between them, slides over itself by maps of a kind. The maps are those whose
-/// velocity is about tangent to the facets (N. Gelfand, L. Guibas, Shape segmentation using local slippage analysis,
-/// 2004), and by which motions of a third of the size, or a sixth on narrow pieces, move no point further off the mesh
-/// than its facets are off a smooth surface. What moves across the border of the mesh tells nothing. The facets of a
-/// solid with corners are its faces, so that a prism does not turn, however many sides it has.
+/// Returns how a mesh, points with polygons between them, slides over itself by maps of a kind. The maps are those
+/// whose velocity is about tangent to the facets (N. Gelfand, L. Guibas, Shape segmentation using local slippage
+/// analysis, 2004), and by which motions of a third of the size, or a sixth on narrow pieces, move no point further off
+/// the mesh than its facets are off a smooth surface. What moves across the border of the mesh tells nothing. The
+/// facets of a solid with corners are its faces, so that a prism does not turn, however many sides it has.
 ///
 /// Takes the nearest points of a tree for 4000 points and at most 20 motions of each of at most 12 maps.
 /// \throw std::invalid_argument if a coordinate is not finite, or a polygon has the position of no point.

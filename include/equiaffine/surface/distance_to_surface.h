@@ -47,8 +47,8 @@ struct Newton_step_3 {
 
   /// Whether the step does not lead to a zero, as the value at its end shows. To a zero of order m, f changes its sign
   /// or shrinks by the factor (1 - 1/m)^m, which is less than 1/e. Away from a pole of order n it keeps its sign and
-  /// shrinks by (1 + 1/n)^-n, which is more. At the end of a longer step it has grown beyond a zero, and has shrunk away
-  /// from a pole. Nothing is concluded where f is undefined at the end.
+  /// shrinks by (1 + 1/n)^-n, which is more. At the end of a longer step it has grown beyond a zero, and has shrunk
+  /// away from a pole. Nothing is concluded where f is undefined at the end.
   bool leads_away_from_zeros(const FT& value_at_end) const {
     using std::abs;
     if (!(distance > FT(0)) || is_sign_change(value, value_at_end)) return false;
@@ -61,8 +61,8 @@ struct Newton_step_3 {
   typename Kernel::Point_3 end;
 };
 
-/// This keeps the greatest distance of some points. It is NaN if Newton's method leads away from zeros at one of them, or
-/// if there is none. What is undefined does not count.
+/// This keeps the greatest distance of some points. It is NaN if Newton's method leads away from zeros at one of them,
+/// or if there is none. What is undefined does not count.
 template <class FT>
 struct Greatest_distance {
   void add(const FT& distance) {

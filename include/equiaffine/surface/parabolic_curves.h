@@ -228,8 +228,8 @@ private:
     }
   }
 
-  /// Moves the point of an edge from its linear position onto the curve, by about the length of the edge at most. Returns
-  /// false if it stays there.
+  /// Moves the point of an edge from its linear position onto the curve, by about the length of the edge at most.
+  /// Returns false if it stays there.
   bool place_point(std::size_t e) {
     const auto [a, b] = edges_[e];
     const Vector_3 edge = mesh_.points[b] - mesh_.points[a];

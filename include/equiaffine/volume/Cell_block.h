@@ -9,8 +9,8 @@
 
 namespace equiaffine {
 
-/// The cells of a lattice from `first` up to, but without, `end` along each axis. Cell (i, j, k) has the nodes (i, j, k)
-/// to (i + 1, j + 1, k + 1).
+/// The cells of a lattice from `first` up to, but without, `end` along each axis. Cell (i, j, k) has the nodes
+/// (i, j, k) to (i + 1, j + 1, k + 1).
 struct Cell_block {
   std::array<std::size_t, 3> first; ///< the first cell along each axis
   std::array<std::size_t, 3> end;   ///< the cell behind the last one along each axis

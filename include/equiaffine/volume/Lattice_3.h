@@ -30,8 +30,8 @@ public:
   using Aff_transformation_3 = typename Kernel::Aff_transformation_3; ///< affine maps of the kernel
   using Size = std::array<std::size_t, 3>;                            ///< nx, ny, nz
 
-  /// \throw std::invalid_argument unless there are two nodes or more along each axis, all coordinates are finite and the
-  /// steps span space
+  /// \throw std::invalid_argument unless there are two nodes or more along each axis, all coordinates are finite and
+  /// the steps span space
   /// \throw Input_error if there are more nodes than a std::size_t can number
   Lattice_3(const Size& size, const Point_3& origin, const std::array<Vector_3, 3>& steps)
       : size_(size), origin_(origin), steps_(steps) {

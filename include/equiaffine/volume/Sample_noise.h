@@ -93,7 +93,8 @@ Sample_noise estimate_noise(const Volume_parts_3<Kernel>& volume, std::optional<
   return internal::noise_of_samples(runs_in_threads<ConcurrencyTag>(), internal::in_kernel_of_samples(volume), level);
 }
 
-/// The same for a volume of numbers of the kernel. \throw std::invalid_argument unless there are as many values as nodes
+/// The same for a volume of numbers of the kernel. \throw std::invalid_argument unless there are as many values as
+/// nodes
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Sample_noise estimate_noise(const Volume_3<Kernel>& volume, std::optional<double> level = std::nullopt) {
   return estimate_noise<ConcurrencyTag>(Volume_view_3<Kernel>::of(volume), level);
@@ -120,16 +121,16 @@ inline double smaller_scale_to_choose(double scale) {
 /// of a voxel, below which details are interpolated anyway. Fourth derivatives of a scan with details of a few voxels
 /// are wrong at every scale, and the larger scales would smooth the details away.
 ///
-/// Scales whose window does not fit into the volume are left out, and 0 is chosen where there is no spline. The smoothing
-/// of the options is ignored. \throw Input_error for bad options
+/// Scales whose window does not fit into the volume are left out, and 0 is chosen where there is no spline. The
+/// smoothing of the options is ignored. \throw Input_error for bad options
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 double choose_smoothing(const Volume_view_3<Kernel>& volume, const Sample_noise& noise,
                         const Volume_options& options = {}) {
   return choose_smoothing<ConcurrencyTag>(Volume_parts_3<Kernel>::of(volume), noise, options);
 }
 
-/// The same for a volume in parts, of which those samples are known that cells_to_know() names for a part's cells and the
-/// greatest scale; for INTERPOLATION those for QUASI_INTERPOLATION. \throw std::invalid_argument unless they are
+/// The same for a volume in parts, of which those samples are known that cells_to_know() names for a part's cells and
+/// the greatest scale; for INTERPOLATION those for QUASI_INTERPOLATION. \throw std::invalid_argument unless they are
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 double choose_smoothing(const Volume_parts_3<Kernel>& volume, const Sample_noise& noise,
                         const Volume_options& options = {}) {
@@ -138,7 +139,8 @@ double choose_smoothing(const Volume_parts_3<Kernel>& volume, const Sample_noise
                                         noise, options);
 }
 
-/// The same for a volume of numbers of the kernel. \throw std::invalid_argument unless there are as many values as nodes
+/// The same for a volume of numbers of the kernel. \throw std::invalid_argument unless there are as many values as
+/// nodes
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 double choose_smoothing(const Volume_3<Kernel>& volume, const Sample_noise& noise, const Volume_options& options = {}) {
   return choose_smoothing<ConcurrencyTag>(Volume_view_3<Kernel>::of(volume), noise, options);
@@ -153,8 +155,8 @@ std::optional<std::size_t> number_of_few_values(const Volume_parts_3<Kernel>& vo
 }
 
 /// Finds the scale by which the samples of a volume are smoothed: that of the options, or without a value the one of
-/// choose_smoothing(). Of a mask, whose samples are steps, a smaller one is chosen if less than nine tenths of the rarer
-/// samples stay on their side of the level. Noise and distinct values are measured in any case.
+/// choose_smoothing(). Of a mask, whose samples are steps, a smaller one is chosen if less than nine tenths of the
+/// rarer samples stay on their side of the level. Noise and distinct values are measured in any case.
 /// \throw Input_error for bad options
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Smoothing_decision decide_smoothing(const Volume_view_3<Kernel>& volume, const Volume_options& options) {
@@ -164,7 +166,8 @@ Smoothing_decision decide_smoothing(const Volume_view_3<Kernel>& volume, const V
                                      internal::in_kernel_of_samples(parts).parts.front().volume, options);
 }
 
-/// The same for a volume of numbers of the kernel. \throw std::invalid_argument unless there are as many values as nodes
+/// The same for a volume of numbers of the kernel. \throw std::invalid_argument unless there are as many values as
+/// nodes
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Smoothing_decision decide_smoothing(const Volume_3<Kernel>& volume, const Volume_options& options) {
   return decide_smoothing<ConcurrencyTag>(Volume_view_3<Kernel>::of(volume), options);
@@ -172,7 +175,8 @@ Smoothing_decision decide_smoothing(const Volume_3<Kernel>& volume, const Volume
 
 namespace internal {
 
-/// The options with a smoothing. \throw Input_error for bad options, and if there is no smoothing for a part of a volume
+/// The options with a smoothing. \throw Input_error for bad options, and if there is no smoothing for a part of a
+/// volume
 template <class ConcurrencyTag, class Kernel>
 Volume_options with_smoothing(const Volume_view_3<Kernel>& volume, const Volume_options& options) {
   options.check();

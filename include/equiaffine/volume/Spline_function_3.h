@@ -158,10 +158,10 @@ namespace equiaffine {
 ///
 /// The support is the whole lattice with its border. There the scheme keeps its order because it extends the samples by
 /// polynomials of degree n, that of the spline, or of degree n + 2 if the samples are smooth enough, or by constants if
-/// they are steps, as those of a mask (Volume_survey.h). All numbers are NaN outside of the support, at every point whose
-/// samples include one that is not finite (all samples take part in interpolation), and everywhere if an axis has no more
-/// than `degree` nodes. Of a part of a volume (Volume_view_3::part) a cell has a value if all samples that it depends on
-/// are known.
+/// they are steps, as those of a mask (Volume_survey.h). All numbers are NaN outside of the support, at every point
+/// whose samples include one that is not finite (all samples take part in interpolation), and everywhere if an axis has
+/// no more than `degree` nodes. Of a part of a volume (Volume_view_3::part) a cell has a value if all samples that it
+/// depends on are known.
 ///
 /// Derivatives are computed in lattice coordinates and mapped to space by the inverse of the lattice's matrix, so that
 /// the lattice may have any rotation, shear and handedness, and steps from 1e-70 to 1e70. The rounding error of a k-th
@@ -170,8 +170,8 @@ namespace equiaffine {
 /// Aldroubi, Eden: B-spline signal processing, 1993; de Boor: Quasiinterpolants, 1990.
 ///
 /// The function keeps the samples, as they are. It computes its coefficients, one number per node and per padding node,
-/// when it is first evaluated, or at once for interpolation; restricted_to_cells() makes functions that have only those of
-/// a block of cells. Copies share samples and coefficients. Const members may be called from many threads at once.
+/// when it is first evaluated, or at once for interpolation; restricted_to_cells() makes functions that have only those
+/// of a block of cells. Copies share samples and coefficients. Const members may be called from many threads at once.
 template <class Kernel>
 class Spline_function_3 {
 public:
@@ -186,8 +186,8 @@ public:
                           longest_step = 1e70; ///< see shortest_step
 
   /// Without a smoothing in the options decide_smoothing() finds it. The coefficients do not depend on the number of
-  /// threads that compute them. \throw Input_error for bad options, and std::invalid_argument unless steps of the lattice
-  /// are no shorter or longer than they may be
+  /// threads that compute them. \throw Input_error for bad options, and std::invalid_argument unless steps of the
+  /// lattice are no shorter or longer than they may be
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Spline_function_3(const Volume_view_3<Kernel>& volume, const Volume_options& options = {},
                              ConcurrencyTag tag = {})
@@ -208,9 +208,9 @@ public:
   int border_degree() const { return fit_.border_degree; }
 
   /// The same function, bit for bit, with the coefficients of a block of cells only, which are computed at once and in
-  /// this thread. It may be evaluated elsewhere, too, which costs some 10 microseconds a point. If the coefficients of all
-  /// cells exist already, or if the scheme is interpolation, they are used. Of a part of a volume, those cells of the block
-  /// count that have a value. \pre the block has cells, and the lattice all of them
+  /// this thread. It may be evaluated elsewhere, too, which costs some 10 microseconds a point. If the coefficients of
+  /// all cells exist already, or if the scheme is interpolation, they are used. Of a part of a volume, those cells of
+  /// the block count that have a value. \pre the block has cells, and the lattice all of them
   Spline_function_3 restricted_to_cells(const Cell_block& cells) const {
     for (std::size_t a = 0; a < 3; ++a)
       CGAL_precondition(cells.first[a] < cells.end[a] && cells.end[a] < lattice().size()[a]);
@@ -363,9 +363,9 @@ template <class Kernel, class ConcurrencyTag>
 Spline_function_3(const Volume_3<Kernel>&, const Volume_options&, ConcurrencyTag) -> Spline_function_3<Kernel>;
 
 /// The cells at whose nodes samples must be known so that a spline through them has its values in all cells of a block.
-/// `nodes` are the numbers of nodes of the lattice. Beside the border of the lattice these are more than elsewhere, since
-/// there the samples are extended. Without a smoothing the greatest one that may be chosen counts. \throw Input_error for
-/// bad options, and for interpolation, which needs all samples
+/// `nodes` are the numbers of nodes of the lattice. Beside the border of the lattice these are more than elsewhere,
+/// since there the samples are extended. Without a smoothing the greatest one that may be chosen counts.
+/// \throw Input_error for bad options, and for interpolation, which needs all samples
 inline Cell_block cells_to_know(const Cell_block& cells, const std::array<std::size_t, 3>& nodes,
                                 const Volume_options& options) {
   options.check();

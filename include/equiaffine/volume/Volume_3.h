@@ -88,8 +88,8 @@ public:
     return view;
   }
 
-  /// Views the values of a volume, which must outlive the view. \throw std::invalid_argument unless there are as many of
-  /// them as nodes
+  /// Views the values of a volume, which must outlive the view. \throw std::invalid_argument unless there are as many
+  /// of them as nodes
   static Volume_view_3 of(const Volume_3<Kernel>& volume) {
     check_argument(volume.values.size() == volume.lattice.number_of_nodes(),
                    "a volume has not as many values as its lattice has nodes: choose the lattice that it has");
@@ -134,8 +134,8 @@ public:
     convert_(at(last), -strides_[axis], out.size(), out.data());
   }
 
-  /// Copies the samples at the nodes of a block of that size, i fastest. It goes through the memory of the samples in their
-  /// order there.
+  /// Copies the samples at the nodes of a block of that size, i fastest. It goes through the memory of the samples in
+  /// their order there.
   void copy_block(const Node& first, const Node& size, std::span<FT> out) const {
     const auto distance = [&](std::size_t axis) { return strides_[axis] < 0 ? -strides_[axis] : strides_[axis]; };
     std::size_t line = 0; // the axis along which neighbors are nearest
@@ -200,7 +200,8 @@ private:
     }
   }
 
-  /// Prefetches what lies some strides ahead: where short lines are far apart, the processor does not do that by itself.
+  /// Prefetches what lies some strides ahead: where short lines are far apart, the processor does not do that by
+  /// itself.
   static void fetch_ahead([[maybe_unused]] const std::byte* here, [[maybe_unused]] std::ptrdiff_t stride) {
 #ifdef __GNUC__
     constexpr std::ptrdiff_t lines = 12;
@@ -223,20 +224,22 @@ private:
   std::ptrdiff_t to_first_ = 0; // from node (0, 0, 0), which may not be known, to the first one that is
 };
 
-/// The parts of a volume that are known here, and how the others, which may be on other machines, are asked. All machines
-/// call the same algorithms with their parts, and get the same results, bit for bit, however the volume is cut.
+/// The parts of a volume that are known here, and how numbers are exchanged with the processes that know the other
+/// parts. All processes call the same algorithms with their parts, and get the same results, bit for bit, however the
+/// volume is cut.
 template <class Kernel>
 struct Volume_parts_3 {
-  /// The samples of a part and around it, of which some cells belong to that part and to no other on any machine.
+  /// The samples of a part and around it, of which some cells belong to that part and to no other in any process.
   struct Part {
     Volume_view_3<Kernel> volume; ///< see Volume_view_3::part()
     Cell_block cells;             ///< that belong to it
   };
-  using Numbers = std::vector<double>; ///< what a machine tells the others
+  using Numbers = std::vector<double>; ///< what a process sends to the others
 
   Lattice_3<Kernel> lattice; ///< of the whole volume
-  std::vector<Part> parts;   ///< those on this machine; there may be none
-  /// Makes the numbers of all machines of those of this one: one machine's after the other's, in the same order everywhere.
+  std::vector<Part> parts;   ///< those of this process; there may be none
+  /// Gathers the numbers of all processes, given those of this one: one process after the other, in the same order in
+  /// all of them.
   std::function<Numbers(Numbers)> gather = [](Numbers numbers) { return numbers; };
 
   /// The one part of a whole volume. \pre no part of it is unknown

@@ -52,8 +52,8 @@ struct Volume_survey {
   }
 };
 
-/// Says of a volume of which only a part is known (Volume_view_3::part) what belongs to that part and how the others,
-/// which may be on other machines, are asked.
+/// Says of a volume of which only a part is known (Volume_view_3::part) what belongs to that part, and how its survey
+/// is combined with those of the other parts, which other processes may have.
 struct Volume_part {
   Cell_block cells; ///< the cells that belong to this part and to no other
   /// Is called once with the survey of these cells, and makes that of all parts of it: with MPI, by reductions.
@@ -64,7 +64,8 @@ struct Volume_part {
 
 namespace equiaffine::internal {
 
-/// How far the polynomial of degree d through f_1 .. f_{d+1} is from f_0: the magnitude of the difference of order d + 1.
+/// How far the polynomial of degree d through f_1 .. f_{d+1} is from f_0: the magnitude of the difference of order d +
+/// 1.
 template <class FT>
 FT error_of_prediction(std::span<const FT> f, int d) {
   FT sum = 0, binomial = 1; // exact: small integers
@@ -99,8 +100,8 @@ void add_vote(std::span<const FT> f, int lesser, int greater, Border_votes& vote
 inline int greater_border_degree(int degree) { return std::min(degree + 2, greatest_border_degree); }
 
 /// The votes of the ends of lines that belong to a block of cells, where all samples that a vote looks at are known.
-/// \throw Input_error for bad options \pre the samples of the block are known. Time: proportional to the number of samples
-/// in the n + 4 layers at the border.
+/// \throw Input_error for bad options \pre the samples of the block are known. Time: proportional to the number of
+/// samples in the n + 4 layers at the border.
 template <class Kernel>
 Border_votes border_votes(const Volume_view_3<Kernel>& volume, const Volume_options& options, const Cell_block& cells) {
   using FT = typename Kernel::FT;
@@ -137,9 +138,9 @@ Border_votes border_votes(const Volume_view_3<Kernel>& volume, const Volume_opti
 }
 
 /// The degree of the polynomials that extend a volume beyond the border for a spline of degree n (see Line_filter): the
-/// one with the most votes. Steps, as of a mask, go on as constants: polynomials through them rise beyond the border, and
-/// would move a surface that is a few samples away. Degree n wins for noise and for edges in a scan, which n + 2 would
-/// magnify.
+/// one with the most votes. Steps, as of a mask, go on as constants: polynomials through them rise beyond the border,
+/// and would move a surface that is a few samples away. Degree n is chosen for noise and for edges in a scan, which n +
+/// 2 would magnify.
 inline int elected_border_degree(const Border_votes& votes, int degree) {
   if (votes.constant > std::max(votes.lesser, votes.greater)) return 0;
   return votes.greater > votes.lesser ? greater_border_degree(degree) : degree;

@@ -43,8 +43,8 @@ inline std::string place(const Side_kernel::Point_3& p) {
   return text.str();
 }
 
-/// Throws Input_error if a coordinate is not finite, or so large that 1 added to it vanishes by rounding: CGAL decides on
-/// which side a point is by rays, through a second point one unit away.
+/// Throws Input_error if a coordinate is not finite, or so large that 1 added to it vanishes by rounding: CGAL decides
+/// on which side a point is by rays, through a second point one unit away.
 inline void check_coordinates_of_mesh(const Distance_mesh& mesh) {
   constexpr double greatest = 1e15;
   for (const auto v : mesh.vertices()) {

@@ -143,8 +143,8 @@ private:
   std::vector<std::vector<FT>> weights_; // of node i < radius_, then of inner nodes
 };
 
-/// The smoothed samples of a volume at the nodes that are known, i fastest. They are NaN where not all that they are made
-/// of is known. \pre the scale is greater than 1
+/// The smoothed samples of a volume at the nodes that are known, i fastest. They are NaN where not all that they are
+/// made of is known. \pre the scale is greater than 1
 template <class ConcurrencyTag, class Kernel>
 std::vector<typename Kernel::FT> smoothed_samples(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale,
                                                   int border_degree) {
@@ -223,9 +223,9 @@ Volume_3<Kernel> smooth_volume(Volume_3<Kernel> volume, const typename Kernel::F
   return volume;
 }
 
-/// The same for samples of any type: the result has numbers of the kernel, or is the volume itself. Of a part of a volume
-/// the nodes are kept whose windows are in it, and the votes of the ends of lines of all parts decide how samples go on
-/// beyond the border (Volume_survey.h). \throw std::invalid_argument if there are no such nodes
+/// The same for samples of any type: the result has numbers of the kernel, or is the volume itself. Of a part of a
+/// volume the nodes are kept whose windows are in it, and the votes of the ends of lines of all parts decide how
+/// samples go on beyond the border (Volume_survey.h). \throw std::invalid_argument if there are no such nodes
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale,
                                     const Border_votes& votes) {

@@ -14,8 +14,8 @@ namespace equiaffine {
 inline constexpr std::size_t large_page = std::size_t(1) << 21;
 
 /// Asks for large pages where memory is written for the first time: the first touch of every small page costs more than
-/// what Marching Cubes or a spline computes for it. This is advice only: a system that ignores it makes programs slower,
-/// not wrong.
+/// what Marching Cubes or a spline computes for it. This is advice only: a system that ignores it makes programs
+/// slower, not wrong.
 inline void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
   const auto begin = reinterpret_cast<std::uintptr_t>(memory);

@@ -56,7 +56,8 @@ void parallel_for([[maybe_unused]] bool in_threads, std::size_t begin, std::size
   parallel_for<CGAL::Sequential_tag>(begin, end, std::move(f), grain);
 }
 
-/// Calls f() and returns what it returns. Its loops for CGAL::Parallel_if_available_tag use threads only if `in_threads`.
+/// Calls f() and returns what it returns. Its loops for CGAL::Parallel_if_available_tag use threads only if
+/// `in_threads`.
 template <class F>
 auto on_threads_if([[maybe_unused]] bool in_threads, const F& f) {
 #ifdef CGAL_LINKED_WITH_TBB
@@ -65,8 +66,8 @@ auto on_threads_if([[maybe_unused]] bool in_threads, const F& f) {
   return f();
 }
 
-/// Calls f(). While a loop of f waits for other threads, the calling thread does no work of other loops, which could need
-/// what f is about to make.
+/// Calls f(). While a loop of f waits for other threads, the calling thread does no work of other loops, which could
+/// need what f is about to make.
 template <class ConcurrencyTag, class F>
 void isolated(const F& f) {
   if constexpr (runs_in_threads<ConcurrencyTag>()) {

@@ -80,8 +80,8 @@ private:
     return (seed.point - candidate.point).squared_length() < spacing * spacing && seed.normal * candidate.normal >= 0;
   }
 
-  /// The level of a seed: the smallest one whose cells, with the side 2^level, are larger than twice its spacing, so that
-  /// a ball of that radius meets two cells along each axis at most.
+  /// The level of a seed: the smallest one whose cells, with the side 2^level, are larger than twice its spacing, so
+  /// that a ball of that radius meets two cells along each axis at most.
   static int level_of(const Seed& seed) { return std::ilogb(seed.spacing) + 2; }
 
   /// The cell of a level that contains p, shifted along all axes by `shift` sides of a cell.

@@ -262,15 +262,16 @@ private:
     return next;
   }
 
-  /// Whether f seems to be undefined in all of a cell of side h, which is not much larger than facets: it has no value at any
-  /// of some points, and not two bounds.
+  /// Whether f seems to be undefined in all of a cell of side h, which is not much larger than facets: it has no value
+  /// at any of some points, and not two bounds.
   bool is_undefined(const CGAL::Bbox_3& box, double h) const {
     return h < 4 * largest_size_ && prover_.knows_gradients() && !prover_.has_value(center(box)) &&
            prover_.lacks_a_bound(box) && prover_.count_undefined(box) == prover_.points_of_box;
   }
 
-  /// Whether there are too many undecided cells of side h to subdivide them once more. A singular point leaves few undecided
-  /// cells at each level, a singular curve twice as many at each level as before. Cells smaller than facets may be less.
+  /// Whether there are too many undecided cells of side h to subdivide them once more. A singular point leaves few
+  /// undecided cells at each level, a singular curve twice as many at each level as before. Cells smaller than facets
+  /// may be less.
   bool is_hopeless(double undecided, double h) const {
     constexpr double largest_fraction = 0.125; // of the box that cells may fill which are undecided, or have no f
     constexpr double maximal_undecided_cells = 200'000;
@@ -351,8 +352,8 @@ private:
 namespace equiaffine {
 
 /// Finds points on every component of the zero set of f in a domain, so dense that a Delaunay mesh can begin with them.
-/// `size(p)` bounds the circumradius of facets near p, and is at most `largest_size`. \throw std::invalid_argument unless
-/// `largest_size` is positive and finite
+/// `size(p)` bounds the circumradius of facets near p, and is at most `largest_size`. \throw std::invalid_argument
+/// unless `largest_size` is positive and finite
 ///
 /// The box of the domain is subdivided into an octree until every cell either has no surface or has gradients that
 /// pairwise form acute angles. By a theorem of Plantinga and Vegter (Isotopic approximation of implicit curves and

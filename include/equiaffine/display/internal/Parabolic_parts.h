@@ -25,8 +25,9 @@ enum class Parabolic_part : std::uint8_t {
 inline constexpr const char* parabolic_region_text = "parabolic region: Gaussian curvature zero within its error";
 
 /// The parts of a surface where affine numbers do not exist since the Gaussian curvature is zero, or zero within its
-/// estimated error. Of a formula they are curves. Of a scan they are regions, and single vertices where noise happens to
-/// cancel: a picture that marked each of these would speak of the noise, so that they take the mean of their neighbors.
+/// estimated error. Of a formula they are curves. Of a scan they are regions, and single vertices where noise happens
+/// to cancel: a picture that marked each of these would speak of the noise, so that they take the mean of their
+/// neighbors.
 class Parabolic_parts {
 public:
   using Triangle = std::array<std::uint32_t, 3>;

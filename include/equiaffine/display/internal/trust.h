@@ -26,8 +26,8 @@ bool is_known(double size, double error);
 /// but at least twice a negligible error.
 std::vector<double> sizes_of_numbers(const Vertex_attributes::Column& column, const Vertex_attributes& attributes);
 
-/// Returns the part of the numbers of a column that are not known to one digit: the estimated error is more than half of
-/// the size of the number. It is 0 without numbers.
+/// Returns the part of the numbers of a column that are not known to one digit: the estimated error is more than half
+/// of the size of the number. It is 0 without numbers.
 double part_in_doubt(const Vertex_attributes::Column& column, const std::vector<double>& errors,
                      const Vertex_attributes& attributes);
 
@@ -42,12 +42,12 @@ bool is_trusted(const Vertex_attributes::Column& column, const Vertex_attributes
 /// or detail make of numbers. The error of a vector, an angle, has no column of that name beside it.
 bool is_component_or_error(const std::string& name, const Vertex_attributes& attributes);
 
-/// Returns what pages and pictures show first: of our attributes with numbers that are trusted the one of the least rank, or
-/// of all with numbers if none is trusted, or another column with numbers; else `status` or `plain`.
+/// Returns what pages and pictures show first: of our attributes with numbers that are trusted the one of the least
+/// rank, or of all with numbers if none is trusted, or another column with numbers; else `status` or `plain`.
 std::string first_shown(const Vertex_attributes& attributes);
 
-/// Returns how little the color of a number says, from 0 for an exact one to 1 if the numbers within the error take half
-/// of the color bar or more. An error that is not known is infinite.
+/// Returns how little the color of a number says, from 0 for an exact one to 1 if the numbers within the error take
+/// half of the color bar or more. An error that is not known is infinite.
 double color_doubt(double value, double error, const Color_mapping& mapping);
 
 } // namespace equiaffine

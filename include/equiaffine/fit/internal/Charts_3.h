@@ -16,8 +16,8 @@ namespace equiaffine::internal {
 struct Charts_3 {
   using Index = std::uint32_t;
 
-  /// How two parts are combined: not at all, as the intersection of half-spaces, as their union, or, if they have creases
-  /// of both kinds in common, as the intersection, too.
+  /// How two parts are combined: not at all, as the intersection of half-spaces, as their union, or, if they have
+  /// creases of both kinds in common, as the intersection, too.
   enum class Relation { NONE, CONVEX, CONCAVE, MIXED };
 
   std::vector<Index> of_point;                       ///< a number for each point; empty if there is no crease
@@ -41,9 +41,9 @@ struct Charts_3 {
     }
   }
 
-  /// Returns the relation of parts that meet, one for all of their creases, or of parts that meet the same third part at
-  /// creases of the same kind, as opposite sides of a plate or of a slot do. It is MIXED if they meet third parts in other
-  /// ways only. Parts that have a corner in common have the relation of most creases there.
+  /// Returns the relation of parts that meet, one for all of their creases, or of parts that meet the same third part
+  /// at creases of the same kind, as opposite sides of a plate or of a slot do. It is MIXED if they meet third parts in
+  /// other ways only. Parts that have a corner in common have the relation of most creases there.
   Relation relation(Index a, Index b) const {
     if (const auto found = bend.find({a, b}); found != bend.end()) return kind_of(found->second);
     if (!has_creases(a) || !has_creases(b)) return Relation::NONE;
@@ -93,11 +93,12 @@ struct Charts_3 {
     double fading, value;
   };
 
-  /// Returns whose value is that of a solid which is bounded by several parts, that of the nearest part first: the solid is
-  /// the intersection of parts that meet at convex creases, whose value is the greatest, and the union of those at concave
-  /// ones, whose value is the least (as in constructive solid geometry; Ohtake et al., Multi-level partition of unity
-  /// implicits, 2003). Unions come first, then the intersection of all of them, which is right at corners of three parts
-  /// and at those with one kind of creases. Parts that no relations lead to from the nearest one are other sheets.
+  /// Returns whose value is that of a solid which is bounded by several parts, that of the nearest part first: the
+  /// solid is the intersection of parts that meet at convex creases, whose value is the greatest, and the union of
+  /// those at concave ones, whose value is the least (as in constructive solid geometry; Ohtake et al., Multi-level
+  /// partition of unity implicits, 2003). Unions come first, then the intersection of all of them, which is right at
+  /// corners of three parts and at those with one kind of creases. Parts that no relations lead to from the nearest one
+  /// are other sheets.
   Choice combined(const std::vector<Part_value>& parts) const {
     const std::vector<char> is_related = connected_with_first(parts);
     Choice greatest = {0, 0, -std::numeric_limits<double>::infinity()};

@@ -81,8 +81,9 @@ T squared(const T& a) {
   else return a * a;
 }
 
-/// HasOwnPower tells whether T has its own pow(T, Exponent). The catch-all `pow` below loses against such a function,
-/// but wins against one that would have to convert the exponent, such as pow(T, int) called with 1.5.
+/// HasOwnPower tells whether T has its own pow(T, Exponent). Overload resolution prefers such a function to the
+/// catch-all `pow` below, but the catch-all to a function that would have to convert the exponent, such as pow(T, int)
+/// for 1.5.
 namespace own_power {
 
 struct Absent {};

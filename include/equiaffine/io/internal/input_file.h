@@ -20,8 +20,8 @@ namespace equiaffine {
 bool has_extension(std::string_view path, std::string_view extension);
 
 /// Opens a file that is not empty for reading bytes.
-/// \throws Input_error that says why there is nothing to read: no such file, a folder, a device, a pipe to which nothing
-/// writes, no permission, an empty file
+/// \throws Input_error that says why there is nothing to read: no such file, a folder, a device, a pipe to which
+/// nothing writes, no permission, an empty file
 std::ifstream open_input(const std::string& path);
 
 namespace internal {

@@ -88,8 +88,9 @@ void visit_vertices(const Isosurface_plan& plan, const Node_block& block, const 
     }
 }
 
-/// Calls place(vertex, i, j, k, axis) for every vertex on an edge that begins at a node of a block, which begins and ends
-/// with a word of signs or a row. (i, j, k) is the node at which the edge begins, and `axis` is a std::integral_constant.
+/// Calls place(vertex, i, j, k, axis) for every vertex on an edge that begins at a node of a block, which begins and
+/// ends with a word of signs or a row. (i, j, k) is the node at which the edge begins, and `axis` is a
+/// std::integral_constant.
 template <class Place>
 void for_each_vertex(const Isosurface_plan& plan, const Node_block& block, const Place& place) {
   plan.has_undefined ? visit_vertices<true>(plan, block, place) : visit_vertices<false>(plan, block, place);
@@ -101,7 +102,8 @@ inline Node_block plane_of_nodes(const Isosurface_plan& plan, std::size_t k) {
   return {{{0, size[0]}, {0, size[1]}, {k, k + 1}}};
 }
 
-/// Calls visit(vertices, edges) for the vertices on edges that begin at nodes of a block, with up to 64 of them at a time.
+/// Calls visit(vertices, edges) for the vertices on edges that begin at nodes of a block, with up to 64 of them at a
+/// time.
 template <class Visit>
 void for_each_batch(const Isosurface_plan& plan, const Node_block& block, const Visit& visit) {
   constexpr std::size_t batch = 64;

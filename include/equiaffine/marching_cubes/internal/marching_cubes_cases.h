@@ -157,8 +157,8 @@ inline void triangulate_annulus(const Polygon& a, const Polygon& b, std::uint8_t
   }
 }
 
-/// Corners, edges and faces have the numbers of the curves above. Bit c of `signs` says that corner c is positive, bit f
-/// of `joined` that the positive corners of face f are connected across the face; it counts only where they face each
+/// Corners, edges and faces have the numbers of the curves above. Bit c of `signs` says that corner c is positive, bit
+/// f of `joined` that the positive corners of face f are connected across the face; it counts only where they face each
 /// other diagonally.
 ///
 /// The boundary curves cut the surface of the cell into regions, one more than there are curves. Inside the cell at

@@ -19,8 +19,8 @@
 
 namespace equiaffine::internal {
 
-// Vertices and triangles are removed from a mesh, and copies of vertices are added, so that all others keep their order:
-// what a plane of nodes and a layer of cells have stays together.
+// Vertices and triangles are removed from a mesh, and copies of vertices are added, so that all others keep their
+// order: what a plane of nodes and a layer of cells have stays together.
 
 /// The places in the arrays of a mesh where the vertices of each plane of nodes, with those of the cells above, and the
 /// triangles of each layer of cells begin. One more place is the end.
@@ -58,8 +58,8 @@ private:
   std::vector<Index> before_;        // the count before each word
 };
 
-/// Removes entries from an array, and calls `move(first, end, to)` to move those between to a place at or before theirs,
-/// which returns the end of it. `removed` is ascending, without repetition.
+/// Removes entries from an array, and calls `move(first, end, to)` to move those between to a place at or before
+/// theirs, which returns the end of it. `removed` is ascending, without repetition.
 template <class Index, class Array, class Move>
 void remove_from_array(const std::vector<Index>& removed, Array& array, const Move& move) {
   auto first = array.begin(), to = first;
@@ -78,8 +78,8 @@ void remove_from_array(const std::vector<Index>& removed, Array& array) {
 }
 
 /// Writes triangles to a place at or before theirs, with the numbers that their vertices have when others are removed.
-/// Returns the end of that place. Mostly no removed vertex is among those of a block of triangles, whose numbers then all
-/// change by the same.
+/// Returns the end of that place. Mostly no removed vertex is among those of a block of triangles, whose numbers then
+/// all change by the same.
 template <class Iterator, class Index>
 Iterator write_renumbered(Iterator first, Iterator end, const Counts_below<Index>& removed_before, Iterator to) {
   constexpr std::ptrdiff_t most = 256; // triangles in a block

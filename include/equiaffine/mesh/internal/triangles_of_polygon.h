@@ -101,8 +101,9 @@ private:
 namespace equiaffine {
 
 /// Appends the triangles of a polygon, whose corners are positions of points: the fan around its first corner if no
-/// triangle of it is turned over, as in convex polygons, else ears that are cut off one after the other (G. H. Meisters,
-/// Polygons have ears, 1975). Polygons that cross themselves, and those of more than 1000 corners, are cut into the fan.
+/// triangle of it is turned over, as in convex polygons, else ears that are cut off one after the other (G. H.
+/// Meisters, Polygons have ears, 1975). Polygons that cross themselves, and those of more than 1000 corners, are cut
+/// into the fan.
 ///
 /// Takes linear time for a fan, and at most cubic time for ears.
 /// \pre the positions are those of points.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elementary functions of numbers and packs. exp, sin and cos are computed by arithmetic alone: no lane of a pack needs a
-// call of the C library, and a lane has the bits of a single number whatever the instruction set is, unless the compiler
-// contracts products and sums. The schemes are those of Muller, Elementary Functions (2016): argument reduction after Cody
-// and Waite (section 11.2), then a Taylor polynomial.
+// Elementary functions of numbers and packs. exp, sin and cos are computed by arithmetic alone: no lane of a pack needs
+// a call of the C library, and a lane has the bits of a single number whatever the instruction set is, unless the
+// compiler contracts products and sums. The schemes are those of Muller, Elementary Functions (2016): argument
+// reduction after Cody and Waite (section 11.2), then a Taylor polynomial.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_ELEMENTARY_FUNCTIONS_H
 #define EQUIAFFINE_NUMBER_INTERNAL_ELEMENTARY_FUNCTIONS_H
 

@@ -233,7 +233,8 @@ private:
     (Indices());
   }
 
-  /// The square roots as the processor computes them: std::sqrt would have to set errno for negative numbers, one by one.
+  /// The square roots as the processor computes them: std::sqrt would have to set errno for negative numbers, one by
+  /// one.
   [[gnu::always_inline]] static Numbers square_roots(const Numbers& a) {
 #if __has_builtin(__builtin_elementwise_sqrt)
     return __builtin_elementwise_sqrt(a);

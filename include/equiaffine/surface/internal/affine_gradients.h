@@ -61,10 +61,10 @@ struct Differentiated_structure_3 {
   std::array<FT, 3> along1, along2;
 };
 
-/// The gradients of K, H and J on the level set, as covectors to be applied to tangent vectors, from derivatives of order
-/// 5: the chart of an expansion whose coefficients are expansions of order 1, in natural units. These are along the
-/// vectors e_u and e_v of the chart, or conjugate ones, since derivatives along the axes would lose digits: where f is
-/// nearly a square, f_z changes much along the axes, but little along the surface.
+/// The gradients of K, H and J on the level set, as covectors to be applied to tangent vectors, from derivatives of
+/// order 5: the chart of an expansion whose coefficients are expansions of order 1, in natural units. These are along
+/// the vectors e_u and e_v of the chart, or conjugate ones, since derivatives along the axes would lose digits: where f
+/// is nearly a square, f_z changes much along the axes, but little along the surface.
 template <class FT>
 std::array<std::array<FT, 3>, 3> gradients_of_invariants(const Jet_3<FT, 5>& given) {
   using Number = Jet_3<FT, 1>;

@@ -203,8 +203,9 @@ private:
   std::unique_ptr<FT[]> values_;
 };
 
-/// A volume as the source of spline coefficients: those of all its cells, which are computed when they are first asked for,
-/// or those of a block of cells alone. Of a part of a volume, all cells are those whose coefficients it determines.
+/// A volume as the source of spline coefficients: those of all its cells, which are computed when they are first asked
+/// for, or those of a block of cells alone. Of a part of a volume, all cells are those whose coefficients it
+/// determines.
 template <class Kernel>
 class Coefficient_source {
 public:

@@ -86,10 +86,10 @@ inline constexpr int greatest_border_degree = 9;
 /// c_i = sum_j border[m + i][j] f_j for i < radius, and the mirror image at the other end. Polynomials of degree n
 /// are hence treated at the border as they are inside, which keeps the order of every derivative. For
 /// quasi-interpolation d may be min(n + 2, 9, N - 1): with d = n, where a wave has 24 samples, the errors of affine
-/// curvatures in the border are a thousand times those inside. A larger d magnifies noise, and steps are no polynomials:
-/// they go on as constants (Volume_survey.h chooses). Other extensions lose the order: repeating or mirroring samples
-/// makes a kink at the border, zeros make a jump, so that the value has order 1 or 0 and fourth derivatives grow as h^-3
-/// or h^-4. Giving the domain up as far as the coefficients reach costs n - 1 cells per axis.
+/// curvatures in the border are a thousand times those inside. A larger d magnifies noise, and steps are no
+/// polynomials: they go on as constants (Volume_survey.h chooses). Other extensions lose the order: repeating or
+/// mirroring samples makes a kink at the border, zeros make a jump, so that the value has order 1 or 0 and fourth
+/// derivatives grow as h^-3 or h^-4. Giving the domain up as far as the coefficients reach costs n - 1 cells per axis.
 template <class FT, int Degree>
 struct Line_filter {
   static constexpr int padding = spline_padding(Degree);

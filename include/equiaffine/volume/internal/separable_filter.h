@@ -12,8 +12,8 @@
 
 namespace equiaffine::internal {
 
-/// Applies a filter of lines along each axis of size[0] x size[1] x size[2] samples, which are those of a volume that are
-/// known; Line_filter::apply is an example.
+/// Applies a filter of lines along each axis of size[0] x size[1] x size[2] samples, which are those of a volume that
+/// are known; Line_filter::apply is an example.
 /// The result, `to`, has `padding` more nodes at each end of each axis.
 template <class ConcurrencyTag, class Kernel, class Filter>
 class Separable_filter {

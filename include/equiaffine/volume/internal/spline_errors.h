@@ -99,8 +99,9 @@ private:
 };
 
 /// Estimates from above how far rounding may change the second derivatives of a spline: two roundings of every term, as
-/// if all samples were as large as the largest one, and one of the samples to float if all are floats. The latter, which
-/// is the greater one by far, is that of samples as large as the coefficients of the cell unless they were smoothed.
+/// if all samples were as large as the largest one, and one of the samples to float if all are floats. The latter,
+/// which is the greater one by far, is that of samples as large as the coefficients of the cell unless they were
+/// smoothed.
 template <class Kernel>
 class Spline_rounding_3 {
 public:
