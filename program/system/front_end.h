@@ -8,7 +8,7 @@
 
 namespace equiaffine {
 
-/// Where options are given.
+/// The front ends, which spell options differently.
 enum class Front_end { COMMAND_LINE, PYTHON };
 
 /// The front end of this process. The module for Python sets it before all else.

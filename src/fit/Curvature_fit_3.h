@@ -140,7 +140,7 @@ inline Number_errors mixture_at_scale(const Data_points_3& data, Data_points_3::
 enum class Fit_use { NUMBERS, BLEND };
 
 /// The fit of the greater degree to exact data, if its K is known better than with the accuracy `lower` of the other.
-/// Where that says that K_e may be zero, it answers: curvatures of a flat part are small for the lower degree.
+/// Returns nothing where the fit of the lower degree allows K_e = 0: its curvatures are small on flat parts.
 inline std::optional<Curvature_fit_3> exact_fit(const Data_points_3& data, Data_points_3::Index center,
                                                 const Way_to_fit& way, const Number_request& request,
                                                 const std::vector<Local_fit_3>& fits, const Fit_accuracy& lower) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is decided between the searches for a map: at which scales fits are compared, which maps are kept, and what to
+// The decisions between the searches for a map: at which scales fits are compared, which maps are kept, and what to
 // try where there is none.
 #include "registration/surface_of_data.h"
 #include <equiaffine/base/Input_error.h>

@@ -65,7 +65,7 @@ struct Doubt_of_points {
 #pragma GCC visibility push(default)
 #endif
 
-/// What an estimate is of: the error; what noise makes; or what detail makes that a scale leaves out.
+/// An estimate is of the whole error, or of its part that comes from noise, or from detail that a scale leaves out.
 enum class Estimate_kind {
   ERROR, ///< column NAME_error
   NOISE, ///< column NAME_noise

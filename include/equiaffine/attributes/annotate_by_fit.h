@@ -60,7 +60,8 @@ void fill_maps_of_fit(Mesh& mesh, const Parameters& parameters,
                       const std::vector<Fitted_structure_3<double>>& structures) {
   check_mesh_for_maps<Mesh>();
   std::vector<typename Mesh::Point> points;
-  for (const auto v : mesh.vertices()) points.push_back(get(vertex_points(mesh, parameters), v));
+  const auto point_map = vertex_points(mesh, parameters);
+  for (const auto v : mesh.vertices()) points.push_back(get(point_map, v));
   const auto areas = areas_of_surface_mesh(mesh, points);
   add_named_maps(mesh, mesh.vertices(), attributes_of_fit(structures, selection_of_named_maps(!areas.empty()), areas));
   for (const Estimate_attribute& estimate : estimate_attributes())

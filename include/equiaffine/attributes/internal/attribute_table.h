@@ -78,7 +78,7 @@ inline constexpr unsigned none = 0, all = 1, basic = 2 | all, signature = 4, of_
 
 } // namespace attribute_lists
 
-/// What attributes of a point are computed from.
+/// The input from which the getters of the table compute the attributes of a point.
 template <class FT>
 struct Attribute_sample {
   /// `area` is a third of the area of the triangles around the vertex of a mesh; NaN for a point that is not one.
