@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds the extension module of the Python package by CMake; all else is in pyproject.toml."""
+"""Builds the extension module of the Python package with CMake. See pyproject.toml for everything else."""
 import os
 import pathlib
 import shutil

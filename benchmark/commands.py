@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Times whole commands from a formula or a volume to a file: the blobby surface of the README with its basic attributes as
-PLY, and the gyroid of two periods per axis in a volume of floats, a MetaImage file.
+"""Times complete commands from a formula or a volume to a file: the blobby surface of the README with its basic
+attributes as PLY, and the gyroid with two periods per axis in a volume of floats, a MetaImage file.
 
-Times are medians of processor time, user and system, on one thread; programs take turns, so that a busy machine slows
-all of them alike. The figures of two threads are the best ratios of wall times. With --before PROGRAM an older program
-does the same on one thread, and the ratios are figures, too, as is whether its file has the bytes of ours from two. Memory is the
-greatest resident set of a command, mapped files included. The peer for volumes is VTK's vtkFlyingEdges3D, which reads the
-same file and writes a PLY file without attributes. Commands with --memory have to keep its limit, to a tenth, for the same
-bytes. With --large there are a volume of 1024^3 floats, beside the peer without a limit, and a formula at 2048^3, which take ten
-minutes, 20 GB of disk and 8 GB of memory.
+Times are medians of CPU time, user and system, with one thread; programs alternate, so that a busy machine slows all of
+them equally. The figures for two threads are the best ratios of wall times. With --before PROGRAM, an older program
+runs with one thread for comparison, and its file must be identical to ours with two threads. Memory is the maximum
+resident set of a command, including mapped files. The peer for volumes is VTK's vtkFlyingEdges3D, which reads the same
+file and writes a PLY file without attributes. Commands with --memory must keep their limit within a tenth, and write
+the same bytes. --large adds a volume of 1024^3 floats, without a limit for the peer, and a formula at 2048^3; this
+takes ten minutes, 20 GB of disk and 8 GB of memory.
 """
 import argparse
 import filecmp
@@ -22,7 +22,7 @@ import time
 
 FORMULA = "(3*x)^4+(3*y)^4+(3*z)^4-45*x^2-45*y^2-45*z^2+6"
 HAS_VTK = importlib.util.find_spec("vtk") is not None
-TARGETS = {256: (0.35, 3), 512: (1.2, 5), 1024: (5, 8)}  # seconds, and the ratio to the program before
+TARGETS = {256: (0.35, 3), 512: (1.2, 5), 1024: (5, 8)}  # seconds, and the ratio to the older program
 GYROID = "sin(x)*cos(y)+sin(y)*cos(z)+sin(z)*cos(x)"
 VOLUMES = {400: (5, 0.6, 400), 640: (None, 2.2, 700)}  # seconds, GB, and the limit in MiB
 FLYING_EDGES = """
@@ -41,10 +41,9 @@ writer.Write()
 
 
 def run_command(command):
-    """Returns processor seconds, wall seconds and the greatest resident set in GB of one command.
+    """Returns CPU seconds, wall seconds and the maximum resident set in GB of one command.
 
-    The last word is its output. One that exists is removed first: to replace a large file, the file system writes the
-    new one to the disk.
+    Removes its output, the last word, first, since replacing a large file makes the file system write to the disk.
     """
     if os.path.exists(command[-1]):
         os.remove(command[-1])
@@ -61,7 +60,8 @@ def run_flying_edges(volume, output):
 
 
 def mesh_of_formula(program, resolution, *options):
-    return [program, "mesh", "--function", FORMULA, "--box", *["-1.2", "1.2"] * 3, "--resolution", str(resolution), *options]
+    return [program, "mesh", "--function", FORMULA, "--box", *["-1.2", "1.2"] * 3, "--resolution", str(resolution),
+    *options]
 
 
 def sample_of_gyroid(program, nodes, *options):
@@ -70,7 +70,7 @@ def sample_of_gyroid(program, nodes, *options):
 
 
 def run(program, resolution, threads, output):
-    """Returns processor seconds and wall seconds of one command."""
+    """Returns CPU seconds and wall seconds of one command."""
     return run_command(mesh_of_formula(program, resolution, "--threads", str(threads), "-o", output))[:2]
 
 

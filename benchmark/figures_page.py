@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes one page of the figures of all groups of benchmarks beside their targets:
+"""Writes a page with the figures of all groups of benchmarks and their targets:
   figures_page.py FOLDER_OF_LOGS PAGE
-A log GROUP.txt has lines `figure NAME VALUE UNIT target >=X`, or without a target, and ends with `seconds S status N`. The
-page is one HTML file that needs nothing else. Prints how many targets are met, and each one that is missed."""
+A log GROUP.txt contains lines `figure NAME VALUE UNIT [target >=X]`, and ends with `seconds S status N`. The page is a
+self-contained HTML file. Prints the number of targets that are met, and each one that is missed."""
 import datetime
 import html
 import math
@@ -28,7 +28,7 @@ svg { vertical-align: middle; } svg .met { fill: #7fb98d; } svg .missed { fill: 
 
 @dataclass
 class Figure:
-    """A measured figure; `margin` is how many times better it is than its target, if that can be said."""
+    """A measured figure; `margin` is its ratio to the target, more than 1 if it is better, if this makes sense."""
     name: str
     value: float
     unit: str
@@ -56,7 +56,8 @@ def figure_of(line):
 
 
 def bar(figure):
-    """A bar from the target, to the right where the figure is better and to the left where it is worse; 10 times fill it."""
+    """A bar that extends from the target to the right if the figure is better, to the left if it is worse; full at
+    10."""
     if figure.margin is None:
         return ""
     width, middle = 200, 100
@@ -85,12 +86,12 @@ def section(group, log):
         head = "<tr><th>figure<th>value<th>unit<th>target<th><th>worse | better than the target, up to 10 times</tr>"
         table = f"<table>{head}{''.join(row(figure) for figure in figures)}</table>"
     text = html.escape("\n".join(lines[:-1] if end else lines))
-    return (f"<h2 id={group}>{group}</h2><p>{note}</p>{table}<details><summary>All that was printed</summary>"
+    return (f"<h2 id={group}>{group}</h2><p>{note}</p>{table}<details><summary>Complete output</summary>"
             f"<pre>{text}</pre></details>"), figures
 
 
 def machine():
-    """One line on what measured."""
+    """A line that describes the machine, the compiler and the commit."""
     model = next((line.split(":", 1)[1].strip() for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
                   if line.startswith("model name")), platform.machine())
     cores = len(re.findall(r"^processor", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.M))
@@ -109,7 +110,7 @@ def main(folder, page):
         links.append(f"<a href=#{log.stem}>{log.stem}</a> {sum(f.is_met for f in with_target)} of {len(with_target)}")
     with_target = [figure for figure in all_figures if figure.is_met is not None]
     met = sum(figure.is_met for figure in with_target)
-    summary = f"{met} of {len(with_target)} targets are met; {len(all_figures) - len(with_target)} figures have none."
+    summary = f"{met} of {len(with_target)} targets met; {len(all_figures) - len(with_target)} figures without a target."
     body = f"<h1>Benchmarks of equiaffine</h1><p>{html.escape(machine())}</p><p>{summary}</p><p>{'; '.join(links)}</p>"
     Path(page).write_text(f"<!DOCTYPE html><html lang=en><meta charset=utf-8><title>Benchmarks of equiaffine</title>"
                           f"<style>{STYLE}</style><body>{body}{''.join(sections)}</body></html>\n", encoding="utf-8")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vertices on known surfaces, and errors of curvatures that are estimated from them.
+// Vertices on known surfaces, and errors of their estimated curvatures.
 #ifndef EQUIAFFINE_BENCHMARK_FIT_SAMPLES_H
 #define EQUIAFFINE_BENCHMARK_FIT_SAMPLES_H
 
@@ -53,7 +53,7 @@ struct Samples {
   double edge = 0; ///< the mean length
 };
 
-/// The radius of the mesher's triangles is changed until there are as many vertices as wanted, to within 5 %.
+/// Adapts the radius of the mesher's triangles until the number of vertices is correct within 5 %.
 inline Samples sample(const Surface& s, double count) {
   const Exact exact(Expression_3(s.formula), s.box);
   double radius = 0.03;
@@ -100,7 +100,8 @@ struct Errors {
   double covered = 0, trusted = 0, wrong = 0;
 };
 
-/// Errors of K relative to |K| + H^2, where |K_e| > 0.2; near the border means nearer than a tenth of the width of `box`.
+/// Errors of K relative to |K| + H^2 at points with |K_e| > 0.2. Points within a tenth of the width of `box` are near
+/// the border.
 inline Errors errors_of(const Samples& samples, const Structures& fits, const CGAL::Bbox_3& box, bool has_border) {
   Errors errors;
   for (std::size_t i = 0; i < fits.size(); ++i) {
@@ -121,7 +122,7 @@ inline Errors errors_of(const Samples& samples, const Structures& fits, const CG
   return errors;
 }
 
-/// Median errors of H_e and K_e, relative to sqrt(|K_e| + H_e^2) and to |K_e| + H_e^2, whatever the signs of H_e.
+/// Median errors of H_e and K_e relative to sqrt(|K_e| + H_e^2) and to |K_e| + H_e^2, ignoring the signs of H_e.
 struct Euclidean_errors {
   double mean, gaussian;
 };

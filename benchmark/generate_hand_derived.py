@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes benchmark/hand_derived.h: all Taylor coefficients up to order 4 of five functions, differentiated symbolically
-and freed of common subexpressions, with what a careful person knows beforehand: (r - R)^2 is a polynomial but for r, and
-a Gaussian is a product of three. Needs python3-sympy."""
+"""Writes benchmark/hand_derived.h: all Taylor coefficients up to order 4 of five functions, differentiated
+symbolically, with common subexpressions eliminated and manual optimizations: (r - R)^2 is a polynomial except for r,
+and a Gaussian is a product of three. Needs python3-sympy."""
 import itertools
 import sympy
 from sympy.printing.c import C99CodePrinter
@@ -54,7 +54,7 @@ def coefficient(f, i, j, k):
 
 
 def torus():
-    """Of the distance r from the axis, with the cosine and sine of the angle about it and k = 1 / r."""
+    """Coefficients of the distance r from the axis, with the cosine and sine of the angle around it and k = 1 / r."""
     r, k, c, s = sympy.symbols("r k c s", positive=True)
     def of_angle(derivative):
         return sympy.expand(derivative.subs(x**2 + y**2, r**2).subs({x: c * r, y: s * r})).subs(r, 1 / k)
@@ -70,7 +70,7 @@ def torus():
 
 
 def metaballs():
-    """A Gaussian is a product of three, and so is each of its coefficients."""
+    """Coefficients of a Gaussian, each of which is a product of three, as the Gaussian is."""
     first, taylor = [], [sympy.Integer(0)] * 35
     taylor[0] = number(0.4)
     u = sympy.Symbol("u")

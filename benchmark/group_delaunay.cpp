@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// delaunay_surface against CGAL's two surface meshers on the same criteria, interleaved; ratios of medians of the
-// processor time. Argument: number of repeats (5).
+// Compares delaunay_surface with CGAL's two surface meshers for the same criteria. Runs alternate; figures are ratios
+// of median CPU times. Argument: number of repeats (5).
 #include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/formula/analytic_functions.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
@@ -79,7 +79,7 @@ double seconds(F f) {
   return timer.time();
 }
 
-/// The point of a grid with f < 0 that is nearest to the center: CGAL's Surface_mesher begins there.
+/// The starting point of CGAL's Surface_mesher: the grid point with f < 0 that is nearest to the center.
 template <class Function>
 Epick::Point_3 inner_point(const Function& f, const Clip_domain_3& domain) {
   const CGAL::Bbox_3& b = domain.bbox();
@@ -203,7 +203,7 @@ void compare(const std::string& name, const F& f, double radius, const Expected&
   compare(name, f, Clip_domain_3(f.box()), radius, expected, repeats);
 }
 
-/// How often a sphere with a radius of a thousandth of the box is found beside a large one.
+/// The number of runs that find a sphere with a radius of a thousandth of the box next to a large one.
 int tiny_spheres_found(int placements) {
   std::mt19937 random(7);
   const auto coordinate = [&] { return (double(random()) / double(std::mt19937::max()) * 2 - 1) * 1.9; };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Signed distances to the bunny at the nodes of a lattice, beside CGAL's tree for each node, OpenVDB and VTK: in one
-// process, on one thread, processor time with all building and checking; runs alternate, figures are medians.
-// Usage: benchmark_distance [folder of data] [runs]
+// Compares signed distances to the bunny at the nodes of a lattice with CGAL's AABB tree, OpenVDB and VTK, in one
+// process with one thread. CPU times include preparation and checks. Runs alternate; figures are medians. Usage:
+// benchmark_distance [folder of data] [runs]
 #include "measure.h"
 #ifdef EQUIAFFINE_HAS_OPENVDB
 #include "peers/distance_openvdb.h"
@@ -45,7 +45,7 @@ std::array<std::size_t, 3> corners(const Mesh& mesh, Mesh::Face_index f) {
   return {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))};
 }
 
-/// The box of the mesh, widened on all sides by a tenth of its longest side, as the program has it.
+/// The box of the mesh, widened on all sides by a tenth of its longest side, as in the program.
 CGAL::Bbox_3 widened_box(const Mesh& mesh) {
   CGAL::Bbox_3 box;
   for (const Point_3& p : mesh.points()) box += p.bbox();
@@ -54,7 +54,7 @@ CGAL::Bbox_3 widened_box(const Mesh& mesh) {
           box.xmax() + margin, box.ymax() + margin, box.zmax() + margin};
 }
 
-/// A lattice with the same step along all axes, which OpenVDB needs, of 129 nodes along the longest.
+/// A lattice with 129 nodes along the longest axis and equal steps along all axes, as required by OpenVDB.
 Lattice_3 cubic_lattice(const Mesh& mesh) {
   const CGAL::Bbox_3 box = widened_box(mesh);
   const double h = std::max({box.x_span(), box.y_span(), box.z_span()}) / 128;
@@ -66,7 +66,7 @@ Lattice_3 cubic_lattice(const Mesh& mesh) {
 
 double step(const Lattice_3& lattice) { return lattice.steps()[0].x(); }
 
-/// Every fourth node along each axis, for those that take long.
+/// Every fourth node along each axis, for slow methods.
 std::vector<Point_3> few_nodes(const Lattice_3& lattice) {
   std::vector<Point_3> points;
   const auto [nx, ny, nz] = lattice.size();
@@ -91,7 +91,7 @@ Values ours(const Mesh& mesh, const Lattice_3& lattice, double band = std::numer
       .values;
 }
 
-/// What users of CGAL write.
+/// A straightforward implementation with CGAL.
 Values by_tree(const Mesh& mesh, const std::vector<Point_3>& points) {
   using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
 #if CGAL_VERSION_NR >= 1060000000
@@ -140,7 +140,7 @@ Values by_openvdb(const Mesh& mesh, const Lattice_3& lattice, double band_in_ste
 }
 #endif
 
-/// Distances without sign at 300 random places of the list, in long double over all triangles; others are NaN.
+/// Unsigned distances at 300 random elements of the list, by brute force in long double; NaN at the other elements.
 Values reference(const Mesh& mesh, const std::vector<Point_3>& points) {
   using Long = CGAL::Simple_cartesian<long double>;
   const auto convert = [](const Point_3& p) { return Long::Point_3(p.x(), p.y(), p.z()); };
@@ -161,7 +161,7 @@ Values reference(const Mesh& mesh, const std::vector<Point_3>& points) {
   return distances;
 }
 
-/// Prints the largest error of distances within a band, in steps, and the part of the nodes with a wrong sign.
+/// Prints the maximum error of distances within a band, in steps, and the fraction of nodes with a wrong sign.
 void print_accuracy(const std::string& name, const Values& values, const Values& exact, const Values& signs, double h,
                     double band) {
   double largest = 0, wrong = 0, count = 0;
@@ -212,6 +212,6 @@ int main(int argc, char** argv) {
     print_accuracy(name, few_of(by_openvdb(bunny, cubic, band), cubic), exact, signs, h, band * h);
   }
 #else
-  std::printf("OpenVDB (Debian's libopenvdb-dev) is not installed and left out\n");
+  std::printf("OpenVDB is skipped; install Debian's libopenvdb-dev\n");
 #endif
 }

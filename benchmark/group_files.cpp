@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writing a mesh with 16 columns of attributes as binary PLY, beside CGAL's writer of a Surface_mesh with the same property
-// maps: in one process, on one thread, to a new file; runs alternate, figures are medians. To remove the file is not timed.
-// Usage: benchmark_files [folder] [runs]
+// Compares writing a mesh with 16 columns of attributes as binary PLY with CGAL's writer of a Surface_mesh with the
+// same property maps, in one process with one thread, to a new file. Runs alternate; figures are medians. Removing the
+// file is not timed. Usage: benchmark_files [folder] [runs]
 #include "measure.h"
 #include <equiaffine/io/write_mesh.h>
 
@@ -24,7 +24,7 @@ namespace {
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// The seconds in which files were removed, during which writing_clock() stood still.
+/// The total time of removing files in seconds, which writing_clock() excludes.
 double removing_seconds = 0;
 
 double writing_clock() { return wall_clock() - removing_seconds; }

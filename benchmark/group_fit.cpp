@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Curvatures of meshes and points by fits: accuracy, noise, coverage of the error estimates, cost, scans, and what other
-// libraries estimate from the same data.
-// Usage: benchmark_fit [part] [folder of data], where part is all, accuracy, peers, cost or scans.
+// Curvatures of meshes and points by fits: accuracy, noise, coverage of the error estimates, cost, scans, and a
+// comparison with other libraries on the same data. Usage: benchmark_fit [part] [folder of data], where part is all,
+// accuracy, peers, cost or scans.
 #include "fit_samples.h"
 #include "measure.h"
 #include "peers/curvature_peers.h"
@@ -121,8 +121,8 @@ void cost() {
   }
 }
 
-/// H_e and K_e where other libraries estimate them, too. Of a peer's radii and degrees the best are chosen with knowledge
-/// of the truth, which its user would not have.
+/// H_e and K_e, compared with other libraries. Their radii and degrees are chosen to minimize the true error, which a
+/// user does not know.
 void beside_euclidean_peers() {
   const Samples samples = sample(meta, 10000);
   for (const double noise : {0., 0.01}) {
@@ -168,8 +168,8 @@ struct Scan {
   const char *seconds, *known, *differ, *agree; ///< targets
 };
 
-/// Two halves of the vertices in which neighbors alternate as far as they can. Random halves would have gaps and clusters,
-/// and what these make of the detail of a scan is no noise.
+/// Two halves of the vertices in which neighbors alternate as far as possible. Random halves would have gaps and
+/// clusters, whose effect on the detail of a scan is not noise.
 std::array<std::vector<Point_3>, 2> alternating_halves(const CGAL::Surface_mesh<Point_3>& mesh) {
   std::array<std::vector<Point_3>, 2> halves;
   std::vector<int> half_of(mesh.num_vertices(), -1);
@@ -183,8 +183,8 @@ std::array<std::vector<Point_3>, 2> alternating_halves(const CGAL::Surface_mesh<
   return halves;
 }
 
-/// At a scale of 22 edges, or of a quarter of the size if that is less: what noise leaves known, and whether fits of two
-/// halves of the vertices agree.
+/// The fraction of known curvatures at a scale of 22 edges, or of a quarter of the size if that is less, and the
+/// agreement between fits of two halves of the vertices.
 void scan(const Scan& scan, const std::string& folder) {
   CGAL::Surface_mesh<Point_3> mesh;
   if (!CGAL::IO::read_OFF(folder + "/meshes/" + scan.name + ".off", mesh)) return;
@@ -204,8 +204,8 @@ void scan(const Scan& scan, const std::string& folder) {
   for (const auto& f : fits) known += f.noise.affine_gaussian_curvature <= 0.2 * size_of(f.structure);
   figure(name + "_2sd_below_20_percent", known / double(fits.size()), "part", scan.known);
 
-  // The fits of two disjoint halves are compared at the same places, 300 vertices that both have: from one vertex to the
-  // next, K at this scale differs by more.
+  // Compare the fits of the halves at the same points, 300 vertices that both contain: between neighboring vertices, K
+  // at this scale differs by more.
   std::array<std::vector<Point_3>, 2> halves = alternating_halves(mesh);
   constexpr std::size_t count = 300;
   const std::size_t own = halves[1].size();

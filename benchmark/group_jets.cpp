@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All 35 Taylor coefficients of order 4 of five functions: jets, one by one and in packs, beside code derived by hand
-// and beside Boost.Math autodiff and ADOL-C.
+// All 35 Taylor coefficients up to order 4 of five functions by jets, for single points and packs, compared with
+// hand-derived code, Boost.Math autodiff and ADOL-C.
 #include "hand_derived.h"
 #include "runner.h"
 #include <equiaffine/formula/Expression_3.h>
@@ -78,7 +78,7 @@ Contender contender(const std::string& name, std::size_t times, std::size_t step
 }
 
 #ifdef EQUIAFFINE_HAS_ADOLC
-/// Forward over the 15 directions from which fourth derivatives are interpolated; the interpolation is left out.
+/// Forward mode in the 15 directions from which fourth derivatives can be interpolated, without the interpolation.
 class Adolc {
 public:
   template <class Function>
@@ -118,7 +118,7 @@ struct Case {
   bool is_algebraic;
 };
 
-/// The figures of one function from the contenders in the order of `compare`.
+/// The figures of one function. The contenders are in the order of `compare`.
 void report(const Case& c, const std::vector<Contender>& contenders) {
   const double jets = contenders[0].nanoseconds, packs = contenders[2].nanoseconds;
   const std::string prefix = "jets_" + c.name;
@@ -130,7 +130,7 @@ void report(const Case& c, const std::vector<Contender>& contenders) {
   figure(prefix + "_expression_to_functor", contenders[3].nanoseconds / packs, "x", "<=3");
 }
 
-/// The largest difference between the coefficients of two contenders, which compute the same thing.
+/// The maximum difference between the coefficients of two contenders, which should agree.
 double difference(const std::array<Jet, number_of_points>& jets, const std::array<Array, number_of_points>& arrays) {
   double largest = 0;
   for (std::size_t i = 0; i < number_of_points; ++i)
@@ -196,7 +196,7 @@ void compare(const Case& c, const Function& f, const Hand& hand, [[maybe_unused]
 
 int main() {
 #ifndef EQUIAFFINE_HAS_ADOLC
-  std::printf("ADOL-C (Debian's libadolc-dev) is not installed and left out\n");
+  std::printf("ADOL-C is skipped; install Debian's libadolc-dev\n");
 #endif
   namespace af = analytic_functions;
   const auto sphere = [](const auto& x, const auto& y, const auto& z) { return x * x + y * y + z * z - 1.0; };

@@ -66,8 +66,8 @@ void table_1() {
   figure("kernel_operations", double(count.compact), "flop", "<=327");
 }
 
-/// Billions of products and sums per second where none waits for another and nothing is loaded: what the processor can
-/// do at the moment, without contracted operations, which would change the numbers.
+/// Billions of independent products and sums per second without memory access: the current peak of the processor
+/// without fused operations, which would change the numbers.
 double peak() {
   std::array<Lanes, 12> x;
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = Lanes(double(i));
@@ -128,7 +128,7 @@ void times() {
   figure("kernel_transformation_to_compact", time_of(contenders, "transformation") / scalar, "x", ">=8");
 }
 
-/// annotate() of a mesh, against a loop over its vertices that computes the structure of one after the other.
+/// annotate() of a mesh, compared with a loop over its vertices that computes the structure at one vertex at a time.
 void meshes() {
   using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
   const auto traits = make_analytic_traits<Kernel>(analytic_functions::Metaballs(), CGAL::Bbox_3(-1, -1, -1, 1, 1, 1));
@@ -217,7 +217,7 @@ void accuracy() {
   figure("kernel_stretched_worst_error", stretched, "1", "<=1e-13");
 }
 
-/// Of programs with one function, see the folder `user`.
+/// Compile times of the small programs in the folder `user`.
 void compilation() {
   for (const std::string name : {"local_structure", "attributes"}) {
     std::vector<double> times;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Marching Cubes against VTK's Flying Edges, against itself with two threads, with a table that knows no ambiguity, and
-// without skipping empty space: in one process, runs alternate, figures are medians of ratios of neighboring runs.
-// Times are of the processor for one thread and of the wall for two. Normals, gradients and scalars are off in VTK.
-// Usage: benchmark_marching_cubes [runs]
+// Compares Marching Cubes with VTK's Flying Edges, and with variants: two threads, a table that ignores ambiguities, no
+// skipping of empty space. All run in one process and alternate; figures are medians of ratios of consecutive runs.
+// Times are CPU times for one thread and wall times for two. VTK computes no normals, gradients or scalars. Usage:
+// benchmark_marching_cubes [runs]
 #include "marching_cubes_fields.h"
 #include "measure.h"
 #include "support/Without_bounds.h"
@@ -67,7 +67,7 @@ Array_isosurface_3<FT> ours(const Field<FT>& field) {
   return marching_cubes_of_array<ConcurrencyTag, FT>(field.values, {field.n, field.n, field.n}, FT(0));
 }
 
-/// The same program with the table of the classic algorithm: positive corners are never joined across a face or inside.
+/// The same algorithm with the classic table, which never joins positive corners across a face or inside.
 template <class FT>
 Array_isosurface_3<FT> classic(const Field<FT>& field) {
   static const internal::Case_table table = [] {
@@ -139,7 +139,7 @@ void sample_signs(const Traits& traits, std::size_t n) {
   internal::sample_signs<CGAL::Sequential_tag>(internal::on_lattice(traits, {.resolution = n}));
 }
 
-/// An analytic sphere with n^3 nodes: the whole, and the signs alone, which are what skipping saves.
+/// An analytic sphere with n^3 nodes: the total time, and the time for the signs, which skipping reduces.
 template <class Function>
 void compare_skipping(const std::string& name, const Function& function, std::size_t n, int runs, const char* target) {
   const auto traits = make_analytic_traits<Kernel>(function, box);
@@ -155,7 +155,7 @@ void compare_skipping(const std::string& name, const Function& function, std::si
   figure("skipping_empty_space_" + name, c.ratio, "x", target);
 }
 
-/// An expression that is never shortened.
+/// An expression that is not simplified for boxes.
 struct Whole_expression {
   template <class T>
   T operator()(const T& x, const T& y, const T& z) const {
@@ -168,7 +168,7 @@ struct Whole_expression {
   Expression_3 f;
 };
 
-/// A union of spheres, whose expression Marching Cubes shortens to those that are near.
+/// A union of spheres, whose expression Marching Cubes reduces to the nearby spheres.
 void compare_shortening(std::size_t spheres, std::size_t n, int runs) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(-0.8, 0.8);
@@ -191,7 +191,7 @@ void compare_shortening(std::size_t spheres, std::size_t n, int runs) {
   figure("shortening_" + name, c.ratio, "x", ">1");
 }
 
-/// Peak memory beside the output and the input.
+/// Peak memory in addition to the output and the input.
 void measure_memory() {
   constexpr double megabyte = 1048576;
   const auto measure = [&](const std::string& name, std::size_t n, std::size_t output, const auto& f) {

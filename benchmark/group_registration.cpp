@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Registration: how often it is right, with how many hypotheses and how exactly, and how long the search takes once the
-// points have their frames; symmetry groups and slippage; false maps.
+// Registration: success rate, number of hypotheses, accuracy, and time of the search given the frames of the points;
+// symmetry groups and slippage; false maps.
 // Usage: benchmark_registration [repeats] [part] [folder of data], where part is all, formulas, symmetries, unrelated,
 // volumes, meshes, bunny, peers or thresholds; or `surfaces`, which only writes the twelve formulas with their boxes.
 // 84 repeats are the full size: 3000 runs with formulas.
@@ -65,7 +65,7 @@ void kinds(const std::vector<Source>& all, int repeats) {
 
 std::string percent(double part) { return std::to_string(int(100 * part + 0.5)) + "_percent"; }
 
-/// Two pieces of which each has the given part in common with the other.
+/// Two pieces, each of which shares the given fraction with the other.
 void overlaps(const std::vector<Source>& all, int repeats) {
   for (const double overlap : {0.5, 0.15, 0.08}) {
     Row row("overlap_" + percent(overlap));
@@ -101,7 +101,8 @@ void few_points(const std::vector<Source>& all, int repeats) {
   row.report({.right = ">=0.99"});
 }
 
-/// Structure is wrong by a part of itself, or each derivative of orders 2 to 4 is, which makes much more of structure.
+/// Relative errors of the structure, or of each derivative of orders 2 to 4, which cause much larger errors of the
+/// structure.
 void wrong_structure(const std::vector<Source>& all, int repeats) {
   for (const double part : {0.01, 0.03, 0.1}) {
     Row structure("structure_disturbed_by_" + percent(part)), derivatives("derivatives_disturbed_by_" + percent(part));
@@ -124,7 +125,7 @@ void wrong_structure(const std::vector<Source>& all, int repeats) {
   }
 }
 
-/// An image of a surface among six others, which have nine tenths of the points.
+/// An image of a surface among six other surfaces, which have nine tenths of the points.
 void clutter(const std::vector<Source>& all, int repeats) {
   Row row("share_of_10_percent");
   Random random(450);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Affine curvatures of sampled functions: accuracy and its order, noise and error estimates, cost beside Teem and ITK,
-// real data. Arguments: the folder of scripts/example-data (build/data), a file for the plot, in SVG (none), and one of
-// cost, noise, figure_10, real_data, accuracy (all).
+// Affine curvatures of sampled functions: accuracy and its order, noise and error estimates, cost compared with Teem
+// and ITK, real data. Arguments: the folder of scripts/example-data (build/data), an SVG file for the plot (none), and
+// one of cost, noise, figure_10, real_data, accuracy (all).
 #include "measure.h"
 #include "peers/spline_peers.h"
 #include "runner.h"
@@ -89,14 +89,14 @@ std::vector<Surface> surfaces() {
           surface("sphere_distance", "sqrt(x^2 + y^2 + z^2) - 1", 1.25, 1.25, 1.25)};
 }
 
-/// Every n-th element, so that some 20,000 are left.
+/// Every n-th element, about 20,000 in all.
 std::vector<Point_3> part_of(const std::vector<Point_3>& points) {
   std::vector<Point_3> part;
   for (std::size_t i = 0; i < points.size(); i += points.size() / 20000 + 1) part.push_back(points[i]);
   return part;
 }
 
-/// Vertices of the surface as the variant finds it.
+/// Vertices of the surface computed by a variant.
 std::vector<Point_3> vertices(const Sampled& sampled, const Variant& variant, double isovalue = 0) {
   const Level_set_traits_3 level_set(sampled, isovalue);
   const auto position = variant.scheme == Spline_scheme::PAPER ? Vertex_position::LINEAR : Vertex_position::PROJECTED;
@@ -105,7 +105,8 @@ std::vector<Point_3> vertices(const Sampled& sampled, const Variant& variant, do
 
 double scale_of(double gaussian, double mean) { return std::abs(gaussian) + mean * mean; }
 
-/// Relative errors at points of a surface: of K in units of |K| + H^2, of H in units of its root, where |K_e| > 0.2.
+/// Relative errors at points of a surface with |K_e| > 0.2: of K in units of |K| + H^2, of H in units of its square
+/// root.
 struct Errors {
   std::vector<double> gaussian, mean;
   double median_gaussian, p95_gaussian, median_mean;
@@ -134,7 +135,7 @@ Errors errors_at(const std::vector<Point_3>& points, const Sampled& sampled, con
   return errors;
 }
 
-/// The slope of log(error) over log(h), by least squares, of the points above the rounding floor from the first one on.
+/// The least-squares slope of log(error) over log(h), for the leading points above the rounding floor.
 std::optional<double> order(const std::vector<double>& h, const std::vector<double>& error, std::size_t first) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (std::size_t i = first; i < h.size(); ++i) {
@@ -337,7 +338,7 @@ void cost() {
   }
 }
 
-/// The part of the vertices whose curvatures are estimated to err by at most a tenth of |K| + H^2.
+/// The fraction of vertices with estimated errors of at most a tenth of |K| + H^2.
 double trusted(const Volume& volume, double isovalue, const char* name) {
   const Sample_noise measured = estimate_noise(volume, std::optional(isovalue));
   const double smoothing = choose_smoothing(volume, measured, {.level = isovalue});
@@ -382,7 +383,7 @@ void real_data(const std::string& folder) {
     const std::string name = "bunny_" + std::to_string(n);
     figure("spline_trusted_" + name, trusted(distances, 0, name.c_str()), "1", ">=0");
     if (n != 129) continue;
-    // f o A^-1 sampled on the box of the image, A that of the paper's figure 11.
+    // f o A^-1 sampled on the box of the image; A is the matrix of the paper's figure 11.
     const CGAL::Aff_transformation_3<Kernel> map(1.4, -0.2, 0, 0.1, 0.7, 0, 0, 0, 1);
     const Lattice_3<Kernel> image_lattice({n, n, n}, distances.lattice.transform(map).bbox());
     const Volume image_distances = signed_distance_volume<Parallel>(bunny, image_lattice.transform(map.inverse()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the filter for VTK takes beyond the library on a gyroid of 256^3 floats: beyond a mesh that is made at once and has no
-// ids, and beyond the slabs with ids that it asks for.
+// Overhead of the VTK filter compared with the library on a gyroid of 256^3 floats: with a mesh that is made at once
+// and has no ids, and with slabs with ids as used by the filter.
 #include "measure.h"
 #include "vtkEquiaffineSurface.h"
 #include <equiaffine/attributes/attributes.h>

@@ -17,7 +17,7 @@ struct Field {
   std::vector<FT> values;
 };
 
-/// The mean of each node and its neighbors, three times.
+/// Replaces each value by the mean of the node and its neighbors, three times.
 template <class FT>
 void smooth(Field<FT>& field) {
   for (int pass = 0; pass < 3; ++pass)

@@ -18,11 +18,11 @@
 
 using Clock = double (*)(); // seconds
 
-/// For programs with several threads: nothing else should run.
+/// Wall time, for programs with several threads. Nothing else should run.
 inline double wall_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-/// For programs with one thread: what this process has computed, whatever else runs.
+/// CPU time of this process, for programs with one thread. Other processes can run.
 inline double processor_clock() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 inline double median(std::vector<double> values) {
@@ -36,7 +36,7 @@ struct Comparison {
   double ratio, a, b;
 };
 
-/// Times a and b in turn, so that what disturbs one disturbs the other; the first run of each is not counted.
+/// Times a and b alternately, so that disturbances affect both. The first run of each is not counted.
 inline std::vector<Comparison> neighboring_runs(Clock clock, int runs, const std::function<void()>& a,
                                                 const std::function<void()>& b) {
   const auto seconds = [&](const std::function<void()>& f) {
@@ -54,7 +54,7 @@ inline std::vector<Comparison> neighboring_runs(Clock clock, int runs, const std
   return pairs;
 }
 
-/// Compares a and b by medians over neighboring runs.
+/// Compares a and b by medians over consecutive runs.
 inline Comparison compare(Clock clock, int runs, const std::function<void()>& a, const std::function<void()>& b) {
   const auto pairs = neighboring_runs(clock, runs, a, b);
   const auto median_of = [&](double Comparison::*member) {
@@ -65,8 +65,8 @@ inline Comparison compare(Clock clock, int runs, const std::function<void()>& a,
   return {median_of(&Comparison::ratio), median_of(&Comparison::a), median_of(&Comparison::b)};
 }
 
-/// Compares one thread with several in wall time, by the neighboring runs that took least time together. Other work takes
-/// a core away from the second thread and makes most pairs say less than is true.
+/// Compares the wall times of one thread and of several by the pair of consecutive runs with the smallest total time.
+/// Other processes use a core of the second thread, so most pairs underestimate the speedup.
 inline Comparison compare_threads(int runs, const std::function<void()>& one, const std::function<void()>& several) {
   const auto pairs = neighboring_runs(wall_clock, runs, one, several);
   return *std::min_element(pairs.begin(), pairs.end(),
@@ -88,7 +88,7 @@ inline double peak_megabytes(const std::function<void()>& f) {
   return double(usage.ru_maxrss) / 1024;
 }
 
-/// Processor seconds of a command of the shell and of what it starts; NaN if it fails.
+/// CPU time of a shell command and its child processes in seconds; NaN if it fails.
 inline double processor_seconds_of(const std::string& command) {
   const auto seconds_of_children = [] {
     rusage usage{};
@@ -101,7 +101,7 @@ inline double processor_seconds_of(const std::string& command) {
   return seconds_of_children() - begin;
 }
 
-/// One line per figure: its name, value and unit, and the target whether met or not.
+/// Prints a line for a figure: name, value, unit and target.
 inline void figure(const std::string& name, double value, const char* unit, const std::string& target) {
   std::printf("figure %s %.4g %s target %s\n", name.c_str(), value, unit, target.c_str());
   std::fflush(stdout);

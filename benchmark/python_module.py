@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Times the Python module beside the program of the same build: python_module.py PROGRAM, with the module on the path.
+"""Compares times of the Python module and of the program of the same build: python_module.py PROGRAM, with the module
+in PYTHONPATH.
 
-Every line `figure NAME VALUE UNIT [target <=X]` is one measured figure. Times are medians of wall time, of both in turn."""
+Each line `figure NAME VALUE UNIT [target <=X]` is a measured figure. Times are median wall times of alternating
+runs."""
 import json
 import os
 import pathlib
@@ -37,7 +39,8 @@ def time_import():
 
 
 def time_beside_program(ea, program, folder):
-    """The call of the module, beside what the program says of its stages without writing; and both with writing."""
+    """Compares calls of the module with the program, without writing files, from the stages that it prints, and with
+    it."""
     samples = np.fromfunction(lambda i, j, k: ((i - 127.5)**2 + 2 * (j - 127.5)**2 + (k - 127.5)**2) / 127.5**2, (256,) * 3,
                               dtype=np.float32)
     ea.Volume(samples).save(folder / "v.nrrd")
@@ -71,7 +74,7 @@ def measure_memory():
 
 
 def time_interrupts(ea):
-    """The time from Ctrl-C to the exception, the longest of some moments of each function."""
+    """The maximum time from Ctrl-C to the exception, over several moments in each function."""
     ball = ea.mesh("x^4 + 2*y^4 + z^4 + x*y^2 + 0.3*x*z = 1", box=1.5, resolution=40)
     i, j, k = np.ogrid[-1:1:200j, -1:1:200j, -1:1:200j]
     samples = np.sin(20 * i) * np.sin(20 * j) * np.sin(20 * k)

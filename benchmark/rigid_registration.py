@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Registers meshes that were turned and shifted, beside Open3D's global registration.
+"""Compares the registration of rotated and shifted meshes with Open3D's global registration:
 
-rigid_registration.py BENCHMARK, with the module on the path, where BENCHMARK is benchmark_registration, which knows the twelve
-surfaces. The source is a mesh of each, the target one of another grid, moved by a random proper motion, whole or cut to a half by
-a random plane. Open3D does what its tutorial of global registration does: histograms of features, RANSAC, and iterated closest
-points, with normals of the meshes and four sizes of voxels.
+  rigid_registration.py BENCHMARK, with the Python module in PYTHONPATH
 
-Every line `figure NAME VALUE UNIT [target >=X]` is one measured figure."""
+BENCHMARK is benchmark_registration, which writes the twelve surfaces. The source is a mesh of a surface. The target is
+a mesh on a different grid, moved by a random proper motion, whole or cut in half by a random plane. Open3D follows its
+tutorial on global registration: feature histograms, RANSAC and iterative closest points, with the normals of the meshes
+and four voxel sizes.
+
+Each line `figure NAME VALUE UNIT [target >=X]` is a measured figure."""
 import statistics
 import subprocess
 import sys
@@ -17,7 +19,7 @@ import numpy as np
 import open3d
 
 MOTIONS = 2
-VOXELS = (0.015, 0.03, 0.05, 0.08)  # in parts of the size of the source
+VOXELS = (0.015, 0.03, 0.05, 0.08)  # relative to the size of the source
 RIGHT_ANGLE = np.radians(1)
 
 
@@ -87,7 +89,7 @@ def measure(name, cases, register):
     right = [angle for angle in angles if angle <= RIGHT_ANGLE]
     figure(f"{name}_right", len(right) / len(cases), "of runs", 0.95 if name.endswith("equiaffine") else None)
     figure(f"{name}_median_angle", np.degrees(statistics.median(right or [np.pi])), "degrees")
-    figure(f"{name}_seconds", statistics.median(seconds), "s of processors")
+    figure(f"{name}_seconds", statistics.median(seconds), "s of CPU time")
 
 
 def main():

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Times of competing ways to do one thing, taken in turn so that a busy machine disturbs all of them alike.
+// Times of competing implementations, measured alternately so that a busy machine affects all of them equally.
 #ifndef EQUIAFFINE_BENCHMARK_RUNNER_H
 #define EQUIAFFINE_BENCHMARK_RUNNER_H
 
@@ -15,20 +15,20 @@
 
 namespace benchmark_runner {
 
-/// Makes the compiler believe that `value` is read.
+/// Prevents the compiler from removing the computation of `value`.
 template <class T>
 void keep(const T& value) {
   asm volatile("" : : "r"(&value) : "memory");
 }
 
-/// Processor time of this thread in seconds.
+/// CPU time of this thread in seconds.
 inline double thread_clock() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
-/// One way: a call does `items` things, and takes some 20 microseconds or more.
+/// An implementation. A call processes `items` items, and should take at least 20 microseconds.
 struct Contender {
   std::string name;
   std::function<void()> run;

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures vtkEquiaffineSurface beside vtkFlyingEdges3D in the same pipeline, in the processes that run this:
+"""Compares vtkEquiaffineSurface with vtkFlyingEdges3D in the same pipeline, in one or more processes:
   mpirun -np 2 --bind-to none pvtkpython benchmark/vtk_filters.py FOLDER_OF_THE_MODULE [NODES] [ATTRIBUTES] [ROW]
-Prints medians of the seconds, the vertices and the peak of the memory of a process beyond that of the pipeline without a
-filter. Memory is that of the first run: name a row, from 0, to measure it in processes of its own."""
+Prints median times, vertices, and the peak memory of a process beyond that of the pipeline without a filter. Memory is
+that of the first run; give the number of a row, from 0, to measure it in separate processes."""
 import re
 import statistics
 import sys
@@ -34,7 +34,7 @@ def reset_peak():
 
 
 def piece_of_gyroid(ghosts):
-    """This process's part of NODES^3 floats, cut along z, with the ghost levels that a source gives."""
+    """The part of this process of NODES^3 floats, divided along z, with the ghost levels provided by a source."""
     first, end = ((NODES - 1) * n // RANKS for n in (RANK, RANK + 1))
     low, high = max(first - ghosts, 0), min(end + ghosts, NODES - 1)
     x = np.linspace(0, 8 * np.pi, NODES, dtype=np.float32)
@@ -51,7 +51,7 @@ def piece_of_gyroid(ghosts):
 
 
 def measure(make, repetitions=3):
-    """Median of the seconds of the slowest process, the output, and the greatest peak of memory beyond the input."""
+    """The median time of the slowest process, the output, and the maximum peak memory beyond the input."""
     seconds, peaks = [], []
     for _ in range(repetitions):
         one = make()

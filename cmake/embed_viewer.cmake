@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Writes the private header of the library that has the files of viewer/ as texts, for pages that are single files. The
-# lines of a file up to its first blank one are its own.
+# Writes a private header of the library that contains the files of viewer/ as strings, for single-file pages. The lines
+# of a file up to its first blank line are left out.
 
 set(EQUIAFFINE_GENERATED_DIR ${PROJECT_BINARY_DIR}/generated)
 
@@ -9,14 +9,14 @@ function(read_viewer_file variable name)
   file(READ ${PROJECT_SOURCE_DIR}/viewer/${name} text)
   string(FIND "${text}" "\n\n" head)
   if(head EQUAL -1)
-    message(FATAL_ERROR "viewer/${name} has no blank line after its first lines, which say what it is")
+    message(FATAL_ERROR "viewer/${name} does not have a blank line after its header comment; add one")
   endif()
   math(EXPR begin "${head} + 2")
   string(SUBSTRING "${text}" ${begin} -1 text)
   set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
 
-# The parts of the script, in their order, each a text of its own, since compilers need not read texts above 64 KB.
+# The parts of the script are separate strings, since compilers need not accept strings longer than 64 KB.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS viewer/parts.txt)
 file(READ ${PROJECT_SOURCE_DIR}/viewer/parts.txt parts)
 string(REGEX MATCHALL "[a-z]+" parts "${parts}")
@@ -36,7 +36,7 @@ endforeach()
 read_viewer_file(style page.css)
 read_viewer_file(stage stage.html)
 read_viewer_file(controls controls.html)
-set(header "// Made of the files of viewer/ by cmake/embed_viewer.cmake.
+set(header "// Generated from the files of viewer/ by cmake/embed_viewer.cmake.
 #ifndef EQUIAFFINE_SRC_DISPLAY_VIEWER_FILES_H
 #define EQUIAFFINE_SRC_DISPLAY_VIEWER_FILES_H
 

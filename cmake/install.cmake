@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-# Without this check an installation would fail half way and leave a prefix that find_package takes for a package.
+# Without this check, an installation could fail halfway, and leave an incomplete package that find_package accepts.
 set(built_files)
 if(EQUIAFFINE_BUILD_LIBRARY)
   list(APPEND built_files $<TARGET_FILE:equiaffine>)
@@ -14,7 +14,7 @@ endif()
 install(
   CODE "foreach(file IN ITEMS ${built_files})
   if(NOT EXISTS \"\${file}\")
-    message(FATAL_ERROR \"\${file} is not built: run cmake --build first, or install the headers alone with \"
+    message(FATAL_ERROR \"\${file} is not built; run cmake --build first, or install only the headers with \"
                         \"-DEQUIAFFINE_BUILD_LIBRARY=OFF -DEQUIAFFINE_BUILD_PROGRAM=OFF\")
   endif()
 endforeach()" COMPONENT development)
@@ -34,7 +34,7 @@ file(RELATIVE_PATH EQUIAFFINE_PREFIX_OF_PKGCONFIG /prefix/${CMAKE_INSTALL_LIBDIR
 string(REGEX REPLACE "/$" "" EQUIAFFINE_PREFIX_OF_PKGCONFIG "${EQUIAFFINE_PREFIX_OF_PKGCONFIG}")
 if(EQUIAFFINE_WITH_TBB)
   set(EQUIAFFINE_TBB_FOR_PKGCONFIG ", tbb")
-  set(EQUIAFFINE_LIBS_FOR_PKGCONFIG " -ltbbmalloc") # CGAL 6 uses it, and it has no file for pkg-config
+  set(EQUIAFFINE_LIBS_FOR_PKGCONFIG " -ltbbmalloc") # used by CGAL 6; it has no pkg-config file
   set(EQUIAFFINE_FLAGS_FOR_PKGCONFIG " -DCGAL_LINKED_WITH_TBB")
 endif()
 if(BUILD_SHARED_LIBS)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Packages for Debian and its descendants: `cpack` in the folder of the build makes those whose parts were built.
-# scripts/packages builds all of them, and checks them.
+# Debian packages. Run `cpack` in the build folder to make those whose components are built; scripts/packages builds and
+# checks all of them.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME equiaffine)
 set(CPACK_PACKAGE_VENDOR "the authors of equiaffine")
-set(EQUIAFFINE_PACKAGER "The equiaffine authors <equiaffine@packages.invalid>" CACHE STRING "Whom packages name as maintainer")
+set(EQUIAFFINE_PACKAGER "The equiaffine authors <equiaffine@packages.invalid>" CACHE STRING "Maintainer of the packages")
 set(CPACK_PACKAGE_CONTACT ${EQUIAFFINE_PACKAGER})
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own
@@ -15,7 +15,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-# Packages for another release of Debian are other packages, 1.0.0-1~debian12, and unstable, which has no number, has the newest.
+# Versions of packages contain the Debian release, such as 1.0.0-1~debian12, except for unstable, which sorts last.
 cmake_host_system_information(RESULT system QUERY DISTRIB_INFO)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 if(system_VERSION_ID)
@@ -35,11 +35,11 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME equiaffine)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, program\n${EQUIAFFINE_IN_SHORT}
 .
-This package has the program.")
+This package contains the program.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libequiaffine-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-# The library has code of the CGAL that it was compiled with.
+# The library contains code of the CGAL version with which it was compiled.
 math(EXPR next_minor "${CGAL_MINOR_VERSION} + 1")
 string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libcgal-dev (>= ${CGAL_MAJOR_VERSION}.${CGAL_MINOR_VERSION}), libcgal-dev (<< ${CGAL_MAJOR_VERSION}.${next_minor}), "
@@ -47,14 +47,14 @@ string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "equiaffine-doc")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, library\n${EQUIAFFINE_IN_SHORT}
 .
-This package has the C++ library, static, its headers, and the files for
-CMake and pkg-config.")
+This package contains the static C++ library, its headers, and files for CMake
+and pkg-config.")
 
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-equiaffine)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, Python module\n${EQUIAFFINE_IN_SHORT}
 .
-This package has the module for Python.")
+This package contains the Python module.")
 
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME equiaffine-doc)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
@@ -62,15 +62,15 @@ set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_COMPONENT_DOCUMENTATION_DESCRIPTION "curvatures of implicit surfaces, meshes and volumes, manual\n${EQUIAFFINE_IN_SHORT}
 .
-This package has the user manual and the reference of the C++ library, for a
-browser.")
+This package contains the user manual and the reference of the C++ library in
+HTML.")
 
 set(CPACK_COMPONENTS_ALL development)
 if(TARGET equiaffine_executable)
   list(APPEND CPACK_COMPONENTS_ALL program)
 endif()
 if(TARGET equiaffine_python)
-  # Debian's Python of one minor version finds only modules that were compiled for it.
+  # Each minor version of Debian's Python needs modules compiled for it.
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
   math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
@@ -79,9 +79,9 @@ if(TARGET equiaffine_python)
                                                 ${CMAKE_CURRENT_SOURCE_DIR}/packaging/debian/python3/prerm)
   list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
-set(EQUIAFFINE_DOCUMENTATION "" CACHE PATH "The site that scripts/documentation has built, for the package equiaffine-doc")
+set(EQUIAFFINE_DOCUMENTATION "" CACHE PATH "Site built by scripts/documentation, for the package equiaffine-doc")
 if(EQUIAFFINE_DOCUMENTATION)
-  # Debian has MathJax in a package of its own.
+  # Debian has a package of MathJax.
   set(html share/doc/equiaffine-doc/html)
   install(DIRECTORY ${EQUIAFFINE_DOCUMENTATION}/ DESTINATION ${html} COMPONENT documentation EXCLUDE_FROM_ALL
           PATTERN mathjax EXCLUDE)
@@ -92,7 +92,7 @@ if(EQUIAFFINE_DOCUMENTATION)
   list(APPEND CPACK_COMPONENTS_ALL documentation)
 endif()
 
-# Each package has its copyright, its changes, and the warnings of lintian that do not apply.
+# Each package contains its copyright, its changelog, and overrides of lintian warnings that do not apply.
 find_program(EQUIAFFINE_GZIP gzip)
 if(EQUIAFFINE_GZIP)
   set(debian ${CMAKE_CURRENT_BINARY_DIR}/debian)

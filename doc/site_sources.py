@@ -29,7 +29,7 @@ SHOWN = (
     (r"\binternal::Output_allocator<(?:[^<>]|<[^<>]*>)*>", "Unspecified"),
     (r"\binternal::default_order\b", "4"),
     (r"\binternal::Cgal_optional\b", "std::optional"),
-    (r" requires internal::own_steps::Has\w+<T>", ""),
+    (r" requires internal::own_functions::Has\w+<T>", ""),
     (r"\binternal::scales_to_try\.back\(\)", "8"),
     (r"\binternal::(?=(?:all_monomials|contains)\()", ""),
 )

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a function to a mesh that knows its curvatures. All points of a sphere of radius r look alike:
-// K = r^-3, H = -r^(-3/2) and, as for Euclidean geometry, K_e = r^-2.
+// Computes a mesh of a function, with curvatures. On a sphere of radius r they are constant:
+// K = r^-3, H = -r^(-3/2), and the Euclidean K_e = r^-2.
 #include <equiaffine/attributes/annotate.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/marching_cubes/marching_cubes.h>
@@ -20,7 +20,7 @@ struct Sphere {
 };
 
 void print_range(Mesh& mesh, const std::string& name) {
-  const auto map = mesh.add_property_map<Mesh::Vertex_index, double>("v:" + name).first; // the one that is there
+  const auto map = mesh.add_property_map<Mesh::Vertex_index, double>("v:" + name).first; // returns the existing map
   const auto [least, greatest] = std::minmax_element(map.begin(), map.end());
   std::printf("%-26s from %7.4g to %7.4g\n", name.c_str(), *least, *greatest);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface from text that is known at run time only: to a mesh with attributes (PLY) and to a web page (HTML).
-// A mistake in the text is an Input_error that shows its place.
+// Converts a formula, given as text at run time, to a mesh with attributes (PLY) and to a web page (HTML).
+// An error in the formula throws an Input_error that shows its position.
 #include <equiaffine/attributes/attributes.h>
 #include <equiaffine/display/write_HTML.h>
 #include <equiaffine/formula/Expression_3.h>
@@ -28,7 +28,7 @@ void convert(const std::string& text) {
   std::ofstream html("tanglecube.html", std::ios::binary);
   equiaffine::write_HTML(html, surface, attributes, {.title = "Tanglecube", .color = "affine_mean_curvature"});
 
-  std::printf("%zu vertices, %zu triangles, %zu columns of numbers\n", surface.points.size(), surface.triangles.size(),
+  std::printf("%zu vertices, %zu triangles, %zu attribute columns\n", surface.points.size(), surface.triangles.size(),
               attributes.columns.size());
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A function that is known at the nodes of a grid only, as from a scanner or a simulation: a spline gives its
-// derivatives. The surface is an ellipsoid with semi-axes 3, 2, 1, for which K = 1/6 everywhere, so that errors can be
-// measured; they shrink with the spacing of the nodes.
+// Meshes a level set of a function that is sampled on a grid, for example by a scanner or a simulation. Its derivatives
+// are those of a spline. The surface is an ellipsoid with semi-axes 3, 2, 1, where K = 1/6 everywhere. This allows you
+// to measure the errors, which decrease with the spacing of the nodes.
 #include <equiaffine/attributes/attributes.h>
 #include <equiaffine/function/Sampled_function_traits_3.h>
 #include <equiaffine/marching_cubes/marching_cubes.h>

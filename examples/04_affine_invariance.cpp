@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A point of a torus and its images under affine maps. A map of determinant 1 or -1 changes the Euclidean curvatures
-// K_e and H_e and keeps the affine K, H, J; for another one powers of a = |det| bring K, H, J back.
+// Compares curvatures at a point of a torus and at its images under affine maps. Maps of determinant 1 or -1 change the
+// Euclidean curvatures K_e and H_e, but not the affine K, H, J. Other maps multiply K, H, J by powers of a = |det|.
 #include <equiaffine/attributes/attributes.h>
 #include <equiaffine/formula/analytic_functions.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A function of your own kind, with its derivatives from your own formulas, becomes a model of ImplicitFunctionTraits_3
-// by three members. Here: any quadric, given by its coefficients. The affine curvatures of a quadric are constant.
+// Implements a model of ImplicitFunctionTraits_3, which needs three members, for a function whose derivatives you
+// compute yourself. Here it is a quadric, given by its coefficients. The affine curvatures of a quadric are constant.
 #include <equiaffine/attributes/attributes.h>
 #include <equiaffine/function/concepts.h>
 #include <equiaffine/marching_cubes/marching_cubes.h>
@@ -20,7 +20,7 @@ public:
   using Point_3 = Kernel::Point_3;
   using Vector_3 = Kernel::Vector_3;
 
-  /// Coefficients of 1, x, y, z, xx, xy, xz, yy, yz, zz: the first ten of a Jet_3.
+  /// Coefficients of 1, x, y, z, xx, xy, xz, yy, yz, zz, the first ten of a Jet_3.
   Quadric_traits_3(const std::array<double, 10>& coefficients, const CGAL::Bbox_3& box) : c_(coefficients), box_(box) {}
 
   FT value(const Point_3& p) const {

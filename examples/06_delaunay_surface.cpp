@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A Delaunay mesh of a torus, and the proof that it is complete.
+// Computes a Delaunay mesh of a torus, with a certificate that no component is missing.
 #include <equiaffine/delaunay/delaunay_surface.h>
 #include <equiaffine/formula/analytic_functions.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>

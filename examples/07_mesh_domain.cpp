@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CGAL's own make_mesh_3 with the function as domain: tetrahedra inside, exact vertices on the surface.
+// Uses a function as the domain of CGAL's make_mesh_3: tetrahedra inside, and vertices exactly on the surface.
 #include <equiaffine/delaunay/Implicit_mesh_domain_3.h>
 #include <equiaffine/formula/analytic_functions.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>

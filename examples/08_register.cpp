@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A piece of a surface is found in the whole, which was sheared and stretched: one pair of points with the same affine
-// invariants gives the whole affine map. No start and no overlap is assumed, and the points of the two are unrelated.
+// Registers a piece of a surface with the whole surface, which was sheared and stretched. One pair of points with the
+// same affine invariants determines the affine map. No initial map or overlap is given, and the two point sets are
+// unrelated.
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/function/Transformed_function_traits_3.h>
@@ -39,10 +40,10 @@ int main() {
     for (int column = 0; column < 4; ++column)
       error = std::max(error, std::abs(result.best().map.m(row, column) - map.m(row, column)));
   const auto [of_piece, of_whole] = result.best().inliers;
-  std::printf("the map is known to 1e-11: %s\n", error < 1e-11 ? "yes" : "no");
-  std::printf("as good a map by chance: fewer than 1e-100: %s\n",
+  std::printf("error of the map below 1e-11: %s\n", error < 1e-11 ? "yes" : "no");
+  std::printf("expected number of maps as good by chance below 1e-100: %s\n",
               result.best().log10_false_alarms < -100 ? "yes" : "no");
-  std::printf("of the piece %.0f %% lie on the whole, of the whole %.0f %% on the piece\n", 100 * of_piece,
+  std::printf("%.0f %% of the piece lies on the whole, %.0f %% of the whole lies on the piece\n", 100 * of_piece,
               100 * of_whole);
 
   const auto rigid =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All affine symmetries of some surfaces. The second one has as many as the first one, which is an affine image of it,
-// but most of them are no isometries. Where there are infinitely many, their group has a dimension: 3 or 4 for quadrics,
-// and 1 for an affine image of a surface of revolution.
+// Finds all affine symmetries of some surfaces. The second surface is an affine image of the first, so it has the same
+// number of symmetries, but most of them are not isometries. An infinite symmetry group has a positive dimension: 3 or
+// 4 for quadrics, 1 for an affine image of a surface of revolution.
 #include <equiaffine/formula/Expression_3.h>
 #include <equiaffine/function/Analytic_function_traits_3.h>
 #include <equiaffine/marching_cubes/marching_cubes.h>
@@ -29,7 +29,7 @@ int main() {
       continue;
     }
     const auto rigid = equiaffine::affine_symmetries(traits, points, {.kind = equiaffine::Map_kind::RIGID});
-    std::printf("  %zu symmetries, %zu of them rigid\n", *affine.order(), *rigid.order());
+    std::printf("  symmetries: %zu, rigid: %zu\n", *affine.order(), *rigid.order());
     //! [symmetries]
   }
 }

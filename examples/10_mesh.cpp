@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Curvatures of a mesh that no formula stands for, with an estimate of the error of each: smooth polynomials are fitted to
-// its vertices. Here the mesh is one of a known surface, so that the estimates can be checked.
+// Estimates curvatures, and their errors, at the vertices of a mesh for which no formula is known, by fitting
+// polynomials. The mesh in this example samples a known surface, so that the estimates can be checked.
 #include <equiaffine/attributes/annotate.h>
 #include <equiaffine/attributes/annotate_by_fit.h>
 #include <equiaffine/formula/Expression_3.h>
@@ -28,7 +28,7 @@ int main() {
   equiaffine::annotate_by_fit(mesh, {.scale = 0});
 
   const auto map = [&](const std::string& name) {
-    return mesh.add_property_map<Mesh::Vertex_index, double>("v:" + name).first; // it is there
+    return mesh.add_property_map<Mesh::Vertex_index, double>("v:" + name).first; // returns the existing map
   };
   const auto K = map("affine_gaussian_curvature"), error = map("affine_gaussian_curvature_error");
   //! [fit]
@@ -42,5 +42,5 @@ int main() {
   }
   const int all = int(num_vertices(mesh));
   std::printf("affine Gaussian curvature known to 1 %% at %d %% of the vertices\n", 100 * known / all);
-  std::printf("right to within the estimated error at %d %% of those\n", 100 * right / known);
+  std::printf("correct within the estimated error at %d %% of these\n", 100 * right / known);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshes, kernels, maps and named parameters of your own: a CGAL::Polyhedron_3 of another kernel than that of the function
-// gets the numbers that are asked for, in maps that need not belong to it, and keeps them in a file.
+// Uses a mesh type, a kernel, property maps and named parameters of your choice: computes selected attributes of a
+// CGAL::Polyhedron_3, whose kernel differs from that of the function, in external property maps, and writes them to a
+// file.
 #include <equiaffine/attributes/annotate.h>
 #include <equiaffine/attributes/annotate_by_fit.h>
 #include <equiaffine/formula/Expression_3.h>
@@ -47,10 +48,10 @@ int main() {
   double difference = 0;
   int right = 0;
   for (const Vertex v : vertices(mesh)) {
-    difference = std::max(difference, std::abs(exact[v] + std::pow(6, 0.25))); // as on a sphere of the same volume
+    difference = std::max(difference, std::abs(exact[v] + std::pow(6, 0.25))); // H of a sphere of the same volume
     right += std::abs(fitted[v] - exact[v]) <= error[v];
   }
-  std::printf("the affine mean curvature is that of a sphere to %s\n", difference < 1e-9 ? "rounding" : "nothing");
-  std::printf("that of fits to the vertices is right to within its error at %d %% of them\n",
+  std::printf("affine mean curvature equal to that of a sphere up to rounding: %s\n", difference < 1e-9 ? "yes" : "no");
+  std::printf("its estimate by fits is correct within the estimated error at %d %% of the vertices\n",
               int(100 * right / int(num_vertices(mesh))));
 }

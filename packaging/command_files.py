@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the manual page of the program, and completions for bash, zsh and fish, from what the program itself says with
---help: command_files.py PROGRAM FOLDER"""
+"""Writes the manual page and the completions for bash, zsh and fish: command_files.py PROGRAM FOLDER
+
+They are generated from the output of --help of the program and of its commands."""
 import argparse
 import dataclasses
 import gzip
@@ -11,22 +12,22 @@ import subprocess
 import sys
 
 HEADING = re.compile(r"^\S.*:$")
-COLUMN = 30  # where the text of an option begins, on the line of its name if there is a space before
+COLUMN = 30  # where the text of an option begins, on the line of its name if preceded by a space
 OPTION = re.compile(r"^  (?P<names>-[^ ]+)(?: (?P<words>\S.*?))? *$")
 EXAMPLE = re.compile(r"^(Examples?:) *(.*)$")
-WORD = re.compile(r"^  (?P<name>[A-Za-z][\w.|]*) {2,}(?P<text>.*)$")  # a command, or what stands for a file
+WORD = re.compile(r"^  (?P<name>[A-Za-z][\w.|]*) {2,}(?P<text>.*)$")  # a command, or a placeholder of a file
 KEYWORD = re.compile(r"^[a-z0-9-]+$")
 
 
 @dataclasses.dataclass
 class Option:
     names: list
-    words: str  # what follows the name
+    words: str  # the values after the name
     text: str
 
     @property
     def choices(self):
-        """The words among the alternatives, such as auto of S|auto."""
+        """The keywords among the alternatives, such as auto in S|auto."""
         alternatives = self.words.split("|")
         return [word for word in alternatives if KEYWORD.match(word)] if len(alternatives) > 1 else []
 
@@ -41,7 +42,7 @@ def help_of(program, *command):
 
 
 def option_of(line):
-    """The option that begins in a line, with that part of its text; None if there is none."""
+    """The option that begins in a line, with the first line of its text; None if there is none."""
     head, text = line, ""
     if len(line) > COLUMN and line[COLUMN - 1] == " " and not line[COLUMN].isspace():
         head, text = line[:COLUMN], line[COLUMN:]
@@ -50,7 +51,7 @@ def option_of(line):
 
 
 def options_of(lines):
-    """The options of a help. A text goes on in lines that are indented as far as it."""
+    """The options of a help text. Continuation lines have the same indentation as the text of an option."""
     options = []
     for line in lines:
         if found := option_of(line):
@@ -68,7 +69,7 @@ def roff(text):
 
 
 def manual_page(version, program_lines, commands):
-    """The help of the program and of each command, with the options as tagged paragraphs."""
+    """The help texts of the program and of each command, with the options as tagged paragraphs."""
     usage, = (line for line in program_lines if line.startswith("Usage: "))
     page = [f'.TH EQUIAFFINE 1 "" "equiaffine {version}" "User Commands"', ".SH NAME", roff(program_lines[0]), ".SH SYNOPSIS"]
     for line in re.split(" {2,}", usage.removeprefix("Usage: ")):
@@ -80,7 +81,7 @@ def manual_page(version, program_lines, commands):
 
 
 def body(lines):
-    """The lines of a help between headings: paragraphs, options and commands with their texts, and examples as they are."""
+    """A help text as roff: paragraphs, options and commands with their texts, and examples without filling."""
     page, is_example = [], False
     for line in lines:
         option, word = option_of(line), WORD.match(line)
@@ -177,7 +178,7 @@ def main():
     commands = {name: options_of(text) for name, text in helps.items()}
     own_options = options_of(lines)
     if not own_options or not commands or not all(commands.values()):
-        sys.exit(f"command_files: {program} --help shows no commands, or none of the options of some")
+        sys.exit(f"command_files: the help of {program} lacks commands, or options of a command; check its format")
     version = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout.split()[-1]
     options.folder.mkdir(parents=True, exist_ok=True)
     (options.folder / "equiaffine.1.gz").write_bytes(gzip.compress(manual_page(version, lines, helps).encode(), mtime=0))

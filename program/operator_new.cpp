@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The `operator new` of this executable, which has large arrays in scratch memory where a limit says so.
+// The `operator new` of this executable: with a limit of the memory, it allocates large arrays in scratch memory.
 #include "system/file_memory.h"
 #include "system/memory_limit.h"
 

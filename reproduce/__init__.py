@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every figure and table of the paper from our code, see ../scripts/reproduce."""
+"""Reproduces the figures and tables of the paper; see ../scripts/reproduce."""

@@ -17,13 +17,13 @@ from .report import to_html, to_json
 
 def parse_arguments():
     parser = argparse.ArgumentParser(prog="reproduce", description="Reproduces the paper's figures and tables.")
-    parser.add_argument("folder", type=pathlib.Path, help="where the report is written")
+    parser.add_argument("folder", type=pathlib.Path, help="the output folder of the report")
     parser.add_argument("--program", type=pathlib.Path, required=True, help="the program equiaffine")
     parser.add_argument("--estimates", type=pathlib.Path, required=True, help="the program equiaffine-estimates")
     parser.add_argument("--bunny", type=pathlib.Path, help="the mesh of the Stanford bunny")
-    parser.add_argument("--item", action="append", choices=list(ITEMS), help="this item alone; may be repeated")
-    parser.add_argument("--small", action="store_true", help="coarse grids, as a test that runs in seconds")
-    parser.add_argument("--require", action="store_true", help="fail unless every item holds, not only runs to its end")
+    parser.add_argument("--item", action="append", choices=list(ITEMS), help="run only this item; can be repeated")
+    parser.add_argument("--small", action="store_true", help="use coarse grids, for a test of a few seconds")
+    parser.add_argument("--require", action="store_true", help="fail unless every item holds, not only completes")
     return parser.parse_args()
 
 
@@ -38,11 +38,11 @@ def run(item, arguments):
         item.work(lab)
     except RuntimeError as error:  # a command failed, or there is nothing to compare
         lab.fail(str(error))
-    except Exception as error:  # a defect of the item: the other ones go on
+    except Exception as error:  # a bug in the item: continue with the others
         traceback.print_exc()
         lab.fail(f"{type(error).__name__}: {error}")
     seconds, processor_seconds = time.monotonic() - start, sum(os.times()[:4]) - processor_start
-    print(f"{item.name:10s} {'holds' if lab.passed else 'does not hold'}  {seconds:6.1f} s, of processors "
+    print(f"{item.name:10s} {'holds' if lab.passed else 'does not hold'}  {seconds:6.1f} s, CPU time "
           f"{processor_seconds:.1f} s", flush=True)
     for check in lab.checks:
         if not check.passed:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `equiaffine` does not offer, since nobody needs it but this report: the paper's methods in single steps.
-//   equiaffine-estimates operations         floating-point operations of each step, as JSON
+// Results of the paper's methods that only this report needs:
+//   equiaffine-estimates operations         numbers of floating-point operations of each step, as JSON
 //   equiaffine-estimates splines < NUMBERS  the library's B-splines of degree 5 and 7, as CSV
-//   equiaffine-estimates SURFACE < CSV      K, H and xi at points by every method and by the formula as printed, as CSV
+//   equiaffine-estimates SURFACE < CSV      K, H and xi at points by each method and by the printed formula, as CSV
 #include "support/operation_counts.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/formula/analytic_functions.h>
@@ -25,8 +25,8 @@ Jet_3<FT> expand(const F& f, const std::array<double, 3>& p) {
       f(Jet_3<FT>::variable(0, FT(p[0])), Jet_3<FT>::variable(1, FT(p[1])), Jet_3<FT>::variable(2, FT(p[2]))));
 }
 
-/// The direct method with the axis closest to the gradient and xi_1 as it is printed in section 2(d), with g_xxy in
-/// place of g_xyy in its second term.
+/// The direct method with the axis closest to the gradient, and with xi_1 as printed in section 2(d): its second term
+/// contains g_xxy instead of g_xyy.
 Affine_estimate_3<double> printed_estimate(const Jet_3<double>& jet) {
   using internal::determinant;
   const auto& c = jet.coefficients();
@@ -64,7 +64,7 @@ void print(const Affine_estimate_3<FT>& e) {
               double(e.normal[0]), double(e.normal[1]), double(e.normal[2]));
 }
 
-/// `reference` is our way in numbers of 64 bits of mantissa.
+/// `reference` is our method in long double.
 template <class F>
 void print_estimates(const F& f) {
   std::printf("x,y,z");
@@ -76,7 +76,7 @@ void print_estimates(const F& f) {
   while (std::getline(std::cin, line)) {
     std::array<double, 3> p{};
     if (std::sscanf(line.c_str(), "%lf,%lf,%lf", &p[0], &p[1], &p[2]) != 3)
-      throw Input_error("not a point x,y,z: '" + line + "'");
+      throw Input_error("the line '" + line + "' is not a point; write x,y,z");
     const Jet_3<double> jet = expand<double>(f, p);
     std::printf("%.17g,%.17g,%.17g", p[0], p[1], p[2]);
     print(affine_estimate(expand<long double>(f, p), Estimator::COMPACT));

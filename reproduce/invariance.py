@@ -15,13 +15,13 @@ KINDS = ("Kolmogorov-Smirnov", "Wasserstein")
 
 
 def sampled(lab, name, surface, *words):
-    """The curvatures at a point in each triangle, by the function that words say, with the areas of the triangles: what
-    curvatures are between vertices, beside parabolic curves above all, cannot be interpolated."""
+    """The curvatures at a point in each triangle, evaluated by the source in `words`, and the areas of the triangles.
+    Curvatures at vertices cannot be interpolated, especially near parabolic curves."""
     return lab.evaluate_many(name, surface.samples(), *words)
 
 
 def distribution(samples, column, is_used=None):
-    """Of the numbers of a column, weighted by the affine area |K_e|^(1/4) dA."""
+    """The distribution of a column, weighted by the affine area |K_e|^(1/4) dA."""
     weights = [area * abs(k) ** 0.25 for area, k in zip(samples["area"], samples["gaussian_curvature"])]
     if is_used:
         weights = [weight if used else 0.0 for weight, used in zip(weights, is_used)]
@@ -29,12 +29,12 @@ def distribution(samples, column, is_used=None):
 
 
 def used_share(samples, is_used=None):
-    """Of the area."""
+    """The fraction of the area that is used."""
     return sum(a for a, used in zip(samples["area"], is_used or samples.is_regular()) if used) / sum(samples["area"])
 
 
 def compared(before, after, are_used=(None, None), symbols=tuple(COLUMNS)):
-    """By the symbols of the curvatures their distances before and after, and their distributions."""
+    """A dictionary from symbols of curvatures to the distances between before and after, and both distributions."""
     result = {}
     for symbol in symbols:
         pair = [distribution(samples, COLUMNS[symbol], is_used) for samples, is_used in zip((before, after), are_used)]
@@ -48,16 +48,16 @@ def tabulate(lab, title, found):
 
 
 def require_invariance(lab, title, found, bound, paper=None):
-    """Affine distances are at most `bound` times the Euclidean ones; `paper` is what the paper's method has."""
+    """Requires affine distances to be at most `bound` times the Euclidean ones. `paper`: the result of its method."""
     for symbol, euclidean in PAIRS:
         for i, kind in enumerate(KINDS):
             ratio = lambda distances: distances[symbol][i] / distances[euclidean][i]
-            lab.check(f"{title}: {kind} distance of {symbol} before and after, over that of {euclidean}", ratio(found),
-                      "<=", bound, paper and ratio(paper))
+            lab.check(f"{title}: {kind} distance of {symbol} before and after, relative to that of {euclidean}",
+                      ratio(found), "<=", bound, paper and ratio(paper))
 
 
 def histogram_of_bounded(pair, symbol):
-    """Before and after, of x / (m + |x|), which shows all of distributions without bounds."""
+    """Histograms before and after of x / (m + |x|), which makes unbounded distributions bounded."""
     unit = pair[0].median_size()
     return histograms(zip(("before", "after"), (each.bounded(unit) for each in pair)),
                       f"{symbol} / (m + |{symbol}|), m = {number(unit)}, the median of |{symbol}| before", -1, 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What an item works with, and what it leaves for the report."""
+"""The tools and the results of an item."""
 
 import json
 import operator
@@ -11,7 +11,7 @@ from .program import Program, points_csv, read_csv
 
 @dataclass
 class Item:
-    """A figure or table of the paper, or a question that it leaves open. `work(lab)` does it."""
+    """A figure or table of the paper, or one of its open questions. `work(lab)` reproduces it."""
 
     name: str
     title: str
@@ -23,7 +23,7 @@ ITEMS = {}
 
 
 def item(name, title, paper):
-    """Makes a function of a Lab an item: `paper` is what the paper shows or claims."""
+    """Decorator that registers a function of a Lab as an item. `paper`: what the paper shows or claims."""
 
     def register(work):
         ITEMS[name] = Item(name, title, paper, work)
@@ -34,7 +34,7 @@ def item(name, title, paper):
 
 @dataclass
 class Check:
-    """A number of ours with its target, beside that of the paper's method, if it has one."""
+    """A result with its target, and the result of the paper's method if available."""
 
     what: str
     ours: object
@@ -46,7 +46,7 @@ class Check:
 
 @dataclass
 class Lab:
-    """The program, a folder, and a notebook for one item."""
+    """The program, the folder and the results of one item."""
 
     program: Program
     estimates_path: str
@@ -55,10 +55,10 @@ class Lab:
     bunny: object = None
     is_complete: bool = True
     checks: list = field(default_factory=list)
-    entries: list = field(default_factory=list)  # what the report shows, in order: (kind, content)
+    entries: list = field(default_factory=list)  # content of the report, in order: (kind, content)
 
     def choose(self, usual, small):
-        """The usual size of something, or that for a quick run."""
+        """The usual value, or that for a quick run."""
         return small if self.is_small else usual
 
     @property
@@ -78,7 +78,7 @@ class Lab:
         return self.program.evaluate_many(name, points, *words)
 
     def estimates(self, what, points=(), numbers=()):
-        """The paper's methods in single steps, see estimates.cpp."""
+        """Results of the paper's methods, see estimates.cpp."""
         self.program.commands.append("equiaffine-estimates " + what)
         text = "".join(f"{t!r}\n" for t in numbers) if numbers else points_csv(points)
         result = subprocess.run([self.estimates_path, what], input=text, capture_output=True, text=True)
@@ -89,15 +89,15 @@ class Lab:
     # Results
 
     def check(self, what, ours, comparison, bound, paper_method=None):
-        """A number that has to be `<=`, `>=` or `==` a bound; a NaN is none of them."""
+        """Requires a number to be `<=`, `>=` or `==` a bound; NaN fails."""
         compare, sign = {"<=": (operator.le, "≤"), ">=": (operator.ge, "≥"), "==": (operator.eq, "=")}[comparison]
         passed = compare(ours, bound)
         self.checks.append(Check(what, ours, f"{sign} {number(bound)}", passed, paper_method,
                                  "" if passed else f"{number(ours)} is not {sign} {number(bound)}"))
 
     def fail(self, reason):
-        """The run broke off."""
-        self.checks.append(Check("the run", None, "ends", False, None, reason))
+        """Records that the run failed."""
+        self.checks.append(Check("the run", None, "completes", False, None, reason))
         self.is_complete = False
 
     def say(self, text):
@@ -111,12 +111,12 @@ class Lab:
         self.entries.append(("plot", (name + ".svg", caption)))
 
     def picture(self, name, caption, *words, of=None):
-        """A picture of the mesh `of`.ply, else of `name`.ply; words are options of `equiaffine view`."""
+        """Draws the mesh `of`.ply, by default `name`.ply; `words` are options of `equiaffine view`."""
         self.program.run("view", (of or name) + ".ply", "--png", name + ".png", *self.size, *words)
         self.entries.append(("picture", (name + ".png", caption)))
 
     def pictured(self, name, caption):
-        """A picture that a command made on the side."""
+        """Adds a picture that a command has made."""
         self.entries.append(("picture", (name + ".png", caption)))
 
     @property
@@ -125,7 +125,7 @@ class Lab:
 
 
 def number(value):
-    """For people: few digits, and no exponent where none is needed."""
+    """A number as readable text: three digits, and no unnecessary exponent."""
     if value is None:
         return "–"
     if isinstance(value, int):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Linear maps, as lists of rows, and images under them."""
+"""Linear maps, as lists of rows, and images of objects."""
 
 import re
 
@@ -7,7 +7,7 @@ from .program import Surface
 
 
 def transformed(expression, matrix):
-    """The expression f(A^-1 p): the surface f = 0 after the linear map A. `x`, `y`, `z` are replaced as words."""
+    """The expression f(A^-1 p), whose surface is the image of f = 0 under the linear map A."""
     inverse = inverted(matrix)
     rows = dict(zip("xyz", ("(" + " + ".join(f"({c!r})*{v}" for c, v in zip(row, "xyz")) + ")" for row in inverse)))
     return re.sub(r"\b[xyz]\b", lambda match: rows[match.group()], expression)
@@ -19,7 +19,7 @@ def determinant(m):
 
 
 def unimodular(matrix):
-    """The matrix divided by the cube root of its determinant, which is positive."""
+    """The matrix divided by the cube root of its determinant, which must be positive."""
     root = determinant(matrix) ** (1 / 3)
     return [[x / root for x in row] for row in matrix]
 
@@ -36,12 +36,12 @@ def image(matrix, point):
 
 
 def image_of_points(matrix, points):
-    """Of a Surface, the images of its points."""
+    """A Surface of the images of the points of a Surface."""
     return Surface(dict(zip("xyz", zip(*(image(matrix, p) for p in points.points)))))
 
 
 def image_of_box(matrix, box):
-    """The box of the image of a box."""
+    """The bounding box of the image of a box."""
     corners = [image(matrix, (x, y, z)) for x in box[0:2] for y in box[2:4] for z in box[4:6]]
     return [bound(corner[axis] for corner in corners) for axis in range(3) for bound in (min, max)]
 

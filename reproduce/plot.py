@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plots as SVG, without any library."""
+"""Plots as SVG, without dependencies."""
 
 import html
 import math
@@ -20,7 +20,7 @@ class Series:
 
 
 class Axis:
-    """Numbers to pixels."""
+    """Maps numbers to pixels."""
 
     def __init__(self, values, low, high, logarithmic):
         values = [v for v in values if math.isfinite(v) and (v > 0 or not logarithmic)] or [1.0, 2.0]
@@ -78,12 +78,12 @@ def drawn(series, color, x_axis, y_axis):
 
 
 def legend_rows(all_series):
-    """Many series have their legend in two columns."""
+    """The number of rows of the legend, which has two columns for four or more series."""
     return len(all_series) if len(all_series) < 4 else (len(all_series) + 1) // 2
 
 
 def legend(all_series, colors):
-    """Above the plot."""
+    """The legend, above the plot."""
     rows = []
     for i, (series, color) in enumerate(zip(all_series, colors)):
         column, row = divmod(i, legend_rows(all_series))
@@ -95,7 +95,7 @@ def legend(all_series, colors):
 
 
 def plot(all_series, x_label, y_label, log_x=False, log_y=False):
-    """The series in one plot with axes, and a legend if they are several."""
+    """A plot of the series with axes, and a legend for two or more series."""
     top = TOP + 17 * legend_rows(all_series) + 6 if len(all_series) > 1 else TOP
     x_axis = Axis([x for s in all_series for x, _ in s.points], LEFT, WIDTH - RIGHT, log_x)
     y_axis = Axis([y for s in all_series for _, y in s.points], HEIGHT - BOTTOM, top, log_y)
@@ -124,7 +124,7 @@ def plot(all_series, x_label, y_label, log_x=False, log_y=False):
 
 
 def histograms(labeled, x_label, low, high, bins=60):
-    """Distributions as steps: pairs of a label and a Distribution; every second one is dashed."""
+    """A plot of pairs of a label and a Distribution as steps; every second one is dashed."""
     width = (high - low) / bins
     all_series = []
     for i, (label, distribution) in enumerate(labeled):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The program `equiaffine` and the surfaces it writes."""
+"""The program `equiaffine` and its surfaces."""
 
 import array
 import csv
@@ -15,7 +15,7 @@ PLY_TYPES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i",
 
 
 class Surface:
-    """A triangle mesh, or points, with numbers: `surface["affine_mean_curvature"]` is a list of floats."""
+    """A triangle mesh or points with attributes: `surface["affine_mean_curvature"]` is a list of floats."""
 
     def __init__(self, columns, faces=b"", face_type="<Biii"):
         self.columns, self._faces, self._face_type = columns, faces, face_type
@@ -31,7 +31,7 @@ class Surface:
         return len(self.columns["x"])
 
     def vectors(self, name):
-        """The vectors `name`_x, _y, _z, the normals for "n", the points for ""."""
+        """The vectors `name`_x, _y, _z; the normals for "n", the points for ""."""
         stem = name + "_" if len(name) > 1 else name
         return list(zip(*(self.columns[stem + axis] for axis in "xyz")))
 
@@ -43,8 +43,9 @@ class Surface:
         return [status == 0 for status in self["status"]]
 
     def samples(self):
-        """A point in each triangle, with the column `area`: by the additive sequence of Roberts, whose fractions fill
-        the unit square evenly. Vertices and centers heap up on the layers of a grid that is parallel to a symmetry."""
+        """A point in each triangle, and the column `area`. Points are those of Roberts' additive sequence, which fills
+        the unit square evenly. Vertices and centroids would cluster on layers of the grid that are parallel to a plane
+        of symmetry."""
         x, y, z = (self[axis] for axis in "xyz")
         rows = array.array("d")
         for i, (a, b, c) in enumerate(self.triangles):
@@ -59,7 +60,7 @@ class Surface:
 
 
 def read_ply(path):
-    """A mesh or points as `equiaffine` writes them: binary, little-endian, triangles."""
+    """Reads a mesh or points written by `equiaffine`: binary, little-endian, triangles."""
     with open(path, "rb") as file:
         data = file.read()
     end = data.index(b"end_header\n") + len(b"end_header\n")
@@ -79,7 +80,7 @@ def read_ply(path):
 
 
 def write_ply(path, columns, triangles=()):
-    """For `equiaffine view` and `evaluate`; x, y and z come first among the columns."""
+    """Writes input for `equiaffine view` and `evaluate`. The first columns must be x, y, z."""
     numbers = array.array("d", (number for row in zip(*columns.values()) for number in row))
     lines = ["ply", "format binary_little_endian 1.0", f"element vertex {len(columns['x'])}"]
     lines += [f"property double {name}" for name in columns]
@@ -91,7 +92,7 @@ def write_ply(path, columns, triangles=()):
 
 
 def read_csv(text):
-    """Columns of numbers by their names; the status stays text."""
+    """A dictionary of columns of numbers; the status remains text."""
     header, *rows = csv.reader(io.StringIO(text))
     columns = {name: [row[i] for row in rows] for i, name in enumerate(header)}
     return {n: column if n == "status" else [float(x) for x in column] for n, column in columns.items()}
@@ -108,7 +109,7 @@ def read_curve_points(path):
 
 
 class Program:
-    """Runs `equiaffine`, and remembers the commands, as somebody would type them in the folder of the item."""
+    """Runs `equiaffine` in the folder of the item, and records the commands as one would type them."""
 
     def __init__(self, path, folder):
         self.path, self.folder, self.commands = path, folder, []
@@ -122,16 +123,16 @@ class Program:
         return result.stdout
 
     def mesh(self, name, *words):
-        """Makes `name`.ply and reads it."""
+        """Meshes to `name`.ply and reads it."""
         self.run("mesh", *words, "-o", name + ".ply")
         return read_ply(self.folder / (name + ".ply"))
 
     def evaluate(self, points, *words):
-        """The columns of attributes at a few points; the status is a word."""
+        """The columns of attributes at a small number of points; the status is a word."""
         return read_csv(self.run("evaluate", *words, "--points", "-", "-o", "-", text=points_csv(points)))
 
     def evaluate_many(self, name, points, *words):
-        """The same as a Surface, by way of `name`-points.ply and `name`.ply."""
+        """The attributes at points as a Surface, using the files `name`-points.ply and `name`.ply."""
         write_ply(self.folder / (name + "-points.ply"), points.columns)
         self.run("evaluate", *words, "--points", name + "-points.ply", "-o", name + ".ply")
         return read_ply(self.folder / (name + ".ply"))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The report: one page with everything in it, and results.json for programs."""
+"""The report: a single self-contained page, and results.json for programs."""
 
 import base64
 import html
@@ -59,7 +59,7 @@ pre { background: var(--soft); padding: 12px 14px; border-radius: 8px; white-spa
 
 
 def results(items_and_labs):
-    """One object per item; the texts are for people, `checks` has the numbers."""
+    """One object per item. `checks` contains the numbers, the other values are text for readers."""
 
     def joined(lab, value):
         return "; ".join(f"{c.what}: {number(value(c))}" for c in lab.checks if value(c) not in (None, "")) or "–"
@@ -76,7 +76,7 @@ def results(items_and_labs):
 
 
 def valid(value):
-    """JSON has no infinite numbers and no NaN."""
+    """Replaces infinities and NaN, which JSON does not support, by text."""
     if isinstance(value, dict):
         return {name: valid(each) for name, each in value.items()}
     if isinstance(value, list):
@@ -104,7 +104,7 @@ def mark(passed):
 
 
 def table(header, rows, attributes=""):
-    """The cells of the rows are HTML."""
+    """A table. The cells of the rows are HTML."""
     head = "".join(f"<th>{html.escape(cell)}</th>" for cell in header)
     body = "".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
     return f"<table {attributes}><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
@@ -115,7 +115,7 @@ def verdict(passed, reason):
 
 
 def summary(items_and_labs):
-    """A row for each item, with the first of its checks that does not hold, else its first one."""
+    """A table with a row for each item: its first failed check, or its first check if all hold."""
     rows = []
     for item, lab in items_and_labs:
         check = next((c for c in lab.checks if not c.passed), lab.checks[0])
@@ -124,7 +124,7 @@ def summary(items_and_labs):
             html.escape(item.paper), html.escape(check.what), readable(check.paper_method), readable(check.ours),
             f'<span class="number">{readable(check.target)}</span>', verdict(check.passed, check.reason),
         ])
-    return table(["", "the paper shows or claims", "measured here", "its method gives", "ours", "target", ""], rows,
+    return table(["", "claim of the paper", "measured here", "the paper's method", "ours", "target", ""], rows,
                  'id="summary"')
 
 
@@ -132,7 +132,7 @@ def checks_table(lab):
     rows = [[html.escape(check.what), readable(check.paper_method), readable(check.ours),
              f'<span class="number">{readable(check.target)}</span>', verdict(check.passed, check.reason)]
             for check in lab.checks]
-    return table(["", "the paper's method, measured", "ours", "target", ""], rows)
+    return table(["", "the paper's method", "ours", "target", ""], rows)
 
 
 def figure(folder, kind, name, caption):
@@ -145,7 +145,7 @@ def figure(folder, kind, name, caption):
 
 
 def entries(lab):
-    """Pictures and plots that follow one another share a grid; many of them come in pairs."""
+    """The entries as HTML. Consecutive pictures and plots share a grid."""
     parts = []
     for kind, group in itertools.groupby(lab.entries, key=lambda entry: entry[0]):
         contents = [content for _, content in group]
@@ -166,7 +166,7 @@ def section(item, lab):
 <blockquote><b>The paper.</b> {html.escape(item.paper)}</blockquote>
 {checks_table(lab)}
 {entries(lab)}
-<details><summary>This item alone: <code>scripts/reproduce --item {item.name}</code>. What it runs:</summary>
+<details><summary>To run only this item: <code>scripts/reproduce --item {item.name}</code>. Its commands:</summary>
 <pre>{html.escape(commands)}</pre></details>
 </section>"""
 
@@ -183,12 +183,12 @@ def to_html(items_and_labs, facts):
 </head>
 <body>
 <h1>Affine-invariant curvature estimators, reproduced</h1>
-<p>Every figure and table of M. Andrade, T. Lewiner, <i>Affine-invariant curvature estimators for implicit surfaces</i>,
-Computer Aided Geometric Design 29(2), 2012, made again with equiaffine: what the paper shows or claims, what its method
-gives when it is measured, and what ours gives. An affine map of determinant 1 may shear and stretch a surface; the
-affine normal ξ, the affine Gaussian and mean curvature K and H and the Pick invariant J go along with it unchanged,
-and the Euclidean curvatures do not. Where a map has another determinant, the weights of these quantities are taken into
-account.</p>
+<p>This report reproduces the figures and tables of M. Andrade, T. Lewiner, <i>Affine-invariant curvature estimators for
+implicit surfaces</i>, Computer Aided Geometric Design 29(2), 2012, with equiaffine. It compares the claims of the
+paper, measurements of its method, and ours. An affine map of determinant 1 can shear and stretch a surface. The affine
+Gaussian and mean curvatures K and H and the Pick invariant J do not change, and the affine normal ξ is mapped to the
+affine normal of the image; the Euclidean curvatures change. For maps of other determinants, the weights of these
+quantities are taken into account.</p>
 <p><b>{passed} of {len(items_and_labs)} items hold.</b> <span class="quiet">{html.escape(facts)}</span></p>
 {summary(items_and_labs)}
 {"".join(section(item, lab) for item, lab in items_and_labs)}

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Distributions of numbers with weights, their distances, and slopes. What is not a number counts as infinite, so that
-no target is met by what could not be computed."""
+"""Weighted distributions of numbers, their distances, and slopes. NaN counts as infinite, so that a failed computation
+does not meet a target."""
 
 import math
 
@@ -23,20 +23,20 @@ def median_size(values):
 
 
 def slope(xs, ys):
-    """Of the line through (log x, log y) with least squares."""
+    """The slope of the least-squares line through (log x, log y)."""
     points = [(math.log(x), math.log(y)) for x, y in zip(xs, ys)]
     mean_x, mean_y = (sum(axis) / len(points) for axis in zip(*points))
     return sum((x - mean_x) * (y - mean_y) for x, y in points) / sum((x - mean_x) ** 2 for x, _ in points)
 
 
 class Distribution:
-    """Finite numbers with weights that sum to one, in ascending order."""
+    """Finite numbers in ascending order, with weights that sum to one."""
 
     def __init__(self, values, weights):
         pairs = sorted((v, w) for v, w in zip(values, weights) if math.isfinite(v) and w > 0)
         total = math.fsum(w for _, w in pairs)
         if not total > 0:
-            raise RuntimeError("no number is left to compare")
+            raise RuntimeError("there are no finite numbers to compare")
         self.values = [v for v, _ in pairs]
         self.weights = [w / total for _, w in pairs]
 
@@ -52,11 +52,11 @@ class Distribution:
         return Distribution([abs(v) for v in self.values], self.weights).quantile(0.5) or 1.0
 
     def bounded(self, unit):
-        """Of x / (unit + |x|), between -1 and 1."""
+        """The distribution of x / (unit + |x|), between -1 and 1."""
         return Distribution([x / (unit + abs(x)) for x in self.values], self.weights)
 
     def histogram(self, low, high, bins):
-        """The share of each bin; what lies outside is in none."""
+        """The fraction in each bin. Values outside are ignored."""
         shares = [0.0] * bins
         for value, weight in zip(self.values, self.weights):
             if low <= value <= high:
@@ -65,9 +65,9 @@ class Distribution:
 
 
 def distances(first, second):
-    """Of two distributions, by Kolmogorov and Smirnov, the greatest difference of the distribution functions, 0 to 1;
-    and by Wasserstein, how far the numbers of one have to move on average to become the other, as x / (m + |x|), m the
-    median of |x|: curvatures grow without bound at parabolic curves, where their mean does not exist."""
+    """The Kolmogorov-Smirnov distance of two distributions, the maximum difference of the distribution functions, and
+    the Wasserstein distance of x / (m + |x|), m the median of |x|. The latter bounds the curvatures, which tend to
+    infinity at parabolic curves and have no mean."""
     unit = first.median_size()
     bounded = lambda x: x / (unit + abs(x))
     events = sorted([*zip(first.values, first.weights), *((v, -w) for v, w in zip(second.values, second.weights))])

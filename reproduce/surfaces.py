@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Formulas of surfaces that several items share, each with a box that no plane of symmetry halves."""
+"""Formulas of surfaces that several items use, each with a box that is not bisected by a plane of symmetry."""
 
 BLOBBY = "(3*x)^4 + (3*y)^4 + (3*z)^4 - 45*x^2 - 45*y^2 - 45*z^2 + 6"
 BLOBBY_BOX = [-0.93, 0.95, -0.95, 0.93, -0.94, 0.95]

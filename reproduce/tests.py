@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Known answers for what the items measure with: python3 -m unittest reproduce.tests"""
+"""Tests of the tools of the items: python3 -m unittest reproduce.tests"""
 
 import json
 import math
@@ -26,8 +26,8 @@ class Statistics(unittest.TestCase):
         first = Distribution([k / 1000 for k in range(1, 1001)], [1.0] * 1000)
         second = Distribution([2 * k / 3000 for k in range(1, 3001)], [1.0] * 3000)
         most, moved = distances(first, second)
-        self.assertAlmostEqual(most, 0.5, places=2)  # at 1: all of the first, half of the second
-        mean = lambda end: 1 - 0.5 / end * math.log(1 + end / 0.5)  # of x / (1/2 + x), 1/2 the median
+        self.assertAlmostEqual(most, 0.5, places=2)  # at 1, where the distribution functions are 1 and 1/2
+        mean = lambda end: 1 - 0.5 / end * math.log(1 + end / 0.5)  # mean of x / (1/2 + x); 1/2 is the median
         self.assertAlmostEqual(moved, mean(2) - mean(1), places=3)
         self.assertEqual(distances(first, first), (0.0, 0.0))
 

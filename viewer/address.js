@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The address of the page, which says what is shown.
+// The address of the page, which stores the view and the selected options.
 
-// The address says what is shown. Words it does not know are ignored.
-let moreOfAddress = () => ({});  // what another part of the page adds
+// Unknown parameters of the address are ignored.
+let moreOfAddress = () => ({});  // parameters added by the playground
 function fragment() {
   const list = (values, digits) => values.map(value => Number(value.toPrecision(digits))).join(',');
   const parts = {

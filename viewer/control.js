@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pointer, keyboard, and the start of the page.
+// Pointer, keyboard and controls, and the start of the page.
 
-let isTouched = false;  // until then the whole surface is kept in sight
+let isTouched = false;  // until the first interaction, the camera keeps the whole surface visible
 function touched() {
   isTouched = true;
   byId('hint').style.opacity = 0;
 }
 
-// Moves the camera's numbers to `goal` within a quarter of a second.
+// Moves the camera's target and distance to `goal` within a quarter of a second.
 let flight = 0;
 function flyTo(goal) {
   const begin = performance.now(), from = {target: camera.target, distance: camera.distance}, current = ++flight;
@@ -29,7 +29,7 @@ function resetView() {
   redraw();
 }
 
-// Pointers: one turns (with the right button or shift it moves), two move, zoom and tap like fingers do.
+// One pointer rotates, or pans with the right button or shift. Two pointers pan and zoom.
 const pointers = new Map();
 let drag = null;
 function placeOf(event) {
@@ -130,7 +130,7 @@ function toggle(name) {
   if (name === 'hasMarks') update();
   else updateColors();
 }
-// The scale that is chosen already is the automatic one again.
+// Choosing the current scale again selects the automatic one.
 function chooseScale(word) {
   choice.scale = word === choice.scale ? 'auto' : word;
   updateColors();
@@ -230,7 +230,7 @@ function fillSelects() {
   chooseCut(...choice.cut);
 }
 
-// Paper is white, whatever the screen is.
+// Prints with the light theme, since paper is white.
 function printLight() {
   const root = document.documentElement;
   let onScreen;
@@ -249,14 +249,14 @@ function start() {
   try {
     scene = createScene(canvas);
   } catch (error) {
-    return say('The graphics of this browser refused to draw:\n' + error.message);
+    return say('The graphics driver of this browser cannot draw the surface; try another browser.\n' + error.message);
   }
   if (!scene) {
     document.body.classList.add('no-panel', 'no-scene');
-    return say('This page needs WebGL 2, which this browser does not offer.\nPlease open it in a current browser '
-               + 'or switch on hardware acceleration.');
+    return say('This page needs WebGL 2, which this browser does not support.\nUse a current browser, or enable '
+               + 'hardware acceleration.');
   }
-  canvas.addEventListener('webglcontextlost', () => say('The graphics driver stopped. Reload the page to go on.'));
+  canvas.addEventListener('webglcontextlost', () => say('The graphics driver was reset; reload the page.'));
   Object.assign(choice, {scale: facts.scale, clip: facts.clip});
   camera.axis = unit(facts.up);
   fillSelects();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The arrays, what can be shown, and the color map. Ranges, scales, ranks and colors are numbers of `facts`, by the
-// rules of io/Column_numbers.h; here they are only looked up.
+// The data of the surface, the quantities that can be shown, and the color map. Ranges, scales, ranks and colors are
+// computed by Column_numbers.h and stored in `facts`.
 
 const byId = id => document.getElementById(id);
-let facts, mesh, spots, vectors, quantities;  // of the surface that is shown, see takeSurface
+let facts, mesh, spots, vectors, quantities;  // of the current surface, see takeSurface
 
 function takeBytes(id) {
   const node = byId(id), text = node.textContent;
@@ -14,13 +14,13 @@ function takeBytes(id) {
   return bytes;
 }
 
-// The surface in the elements of this page. Columns are functions, since most of them are not looked at.
+// The surface stored in the elements of this page. Columns are functions, since most of them are never shown.
 const surfaceOfPage = () => ({
   facts: byId('facts').textContent,
   positions: new Float32Array(takeBytes('positions').buffer),
   triangles: new Uint32Array(takeBytes('triangles').buffer),
   status: takeBytes('status'),
-  parts: takeBytes('parts'),  // Parabolic_part of every vertex, or nothing
+  parts: takeBytes('parts'),  // Parabolic_part of every vertex, or empty
   column: i => new Float32Array(takeBytes('column-' + i).buffer),
 });
 
@@ -36,7 +36,7 @@ function takeSurface({facts: text, column: valuesOf, ...arrays}) {
   quantities = findQuantities();
   radius = radiusOfMesh();
 }
-// With the numbers that pictures interpolate in parabolic spots.
+// The values of a column, with interpolated values in parabolic spots.
 function filled(column) {
   if (!spots.length) return column.values();
   const result = column.values().slice();
@@ -45,7 +45,7 @@ function filled(column) {
 }
 const columnNamed = name => facts.columns.find(column => column.name === name);
 
-// Three columns NAME_x, NAME_y, NAME_z (or nx, ny, nz) are a vector.
+// Three columns NAME_x, NAME_y, NAME_z (or nx, ny, nz) form a vector.
 const vectorLabels = {
   n: 'Normal', conormal: 'Co-normal', affine_normal: 'Affine normal',
   direction1: 'Principal direction 1', direction2: 'Principal direction 2',
@@ -63,15 +63,16 @@ function findVectors() {
   return result;
 }
 
-// Scalars; components of vectors and of the metric, which have no colors, only when the page was asked for them.
+// Scalars. Components of vectors and of the metric have ranges only if the page was created with that color.
 const plain = {name: 'plain', label: 'No color', group: 'Surface'};
-const statusQuantity = {name: 'status', label: 'Status of the points', group: 'Surface'};
+const statusQuantity = {name: 'status', label: 'Status', group: 'Surface'};
 const findQuantities = () => [
   ...facts.columns.filter(column => column.ranges).sort((a, b) => a.order - b.order),
   ...(mesh.status.length ? [statusQuantity] : []), plain,
 ];
 
-// Calls use(first corner in `triangles`, normal with twice the face's area as length) for every face.
+// Calls use(index of the first corner in `triangles`, x, y, z) for every face. The normal x, y, z has twice the face's
+// area as length.
 function faceNormals(p, triangles, use) {
   for (let t = 0; t < triangles.length; t += 3) {
     const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
@@ -81,7 +82,7 @@ function faceNormals(p, triangles, use) {
   }
 }
 
-// Unit normals: the attributes nx ny nz, where there are none the mean of the faces'.
+// Unit normals, scaled to 16 bits: the attributes nx, ny, nz, or mean normals of the faces where these are undefined.
 function vertexNormals() {
   const {positions, triangles} = mesh, sums = new Float32Array(positions.length);
   faceNormals(positions, triangles, (t, x, y, z) => {
@@ -102,9 +103,9 @@ function vertexNormals() {
   return result;
 }
 
-// Where a triangle bends away from the normal of a corner, as at a crease, a copy of the vertex takes its place there,
-// lit by the mean of the faces that do not bend away from the triangle, as in pictures. The copies, of the vertices
-// `origins`, follow after the vertices.
+// Duplicates vertices at creases, like pictures of the program. If the normals of a triangle and of its corner differ
+// by more than 40 degrees, the corner becomes a copy of the vertex, whose normal is the mean of those faces that are
+// within 40 degrees of the triangle. The copies of the vertices `origins` follow the vertices.
 function splitAtCreases(normals) {
   const {positions, triangles, size} = mesh, bent = [], greatestBend = Math.cos(40 * Math.PI / 180);
   const faces = new Float32Array(triangles.length);
@@ -133,7 +134,7 @@ function splitAtCreases(normals) {
   return {normals: all, triangles: corners, origins: bent.map(k => triangles[k])};
 }
 
-// A third of the area of the faces around each vertex; equal shares for a mesh without area.
+// A third of the area of the faces around each vertex; all 1 if the area of the mesh is 0.
 function vertexAreas() {
   const areas = new Float64Array(mesh.size);
   let total = 0;
@@ -145,8 +146,8 @@ function vertexAreas() {
   return total > 0 ? areas : areas.fill(1);
 }
 
-// The Gaussian curvature, scaled, 0 on parabolic curves and NaN in such regions and where it is not known, if the
-// quantity does not exist where that changes its sign; else null.
+// For a quantity that is undefined where the Gaussian curvature changes its sign, returns that curvature, scaled: 0 on
+// parabolic curves, NaN in parabolic regions and where it is unknown. Otherwise returns null.
 function vertexSides(quantity) {
   const curvature = quantity.isUndefinedAtParabolicPoints && columnNamed('gaussian_curvature')?.values();
   if (!curvature) return null;
@@ -156,7 +157,7 @@ function vertexSides(quantity) {
   return sides.map(side => isFinite(side) ? side / largest : NaN);
 }
 
-// Whether the sides have different signs in a triangle where all three are known.
+// Whether the sides of some triangle are all known and have different signs.
 function hasParabolicLine(sides) {
   for (let t = 0; t < mesh.triangles.length; t += 3) {
     const corners = [0, 1, 2].map(k => sides[mesh.triangles[t + k]]);
@@ -167,15 +168,15 @@ function hasParabolicLine(sides) {
 
 const errorColumn = quantity => columnNamed(quantity.name + '_error');
 
-// color_doubt of io/trust.h.
+// The uncertainty of a color, 0 to 1: color_doubt of display/internal/trust.h.
 function colorDoubt(value, error, place) {
   if (!isFinite(error)) return 1;
   const clamped = number => Math.min(1, Math.max(0, place(number)));
   return Math.min(1, 2 * (clamped(value + error) - clamped(value - error)));
 }
 
-// What every vertex is drawn as: 0 by its number, 1 to 4 by its status, 5 because it has no number. With sides,
-// parabolic vertices outside of regions are those that a line is drawn through.
+// How each vertex is colored: 0 by its number, 1 to 4 by its status, 5 as one without a number. With `sides`, a line is
+// drawn through parabolic vertices outside of parabolic regions.
 function vertexCodes(numbers, withStatus, sides) {
   const codes = new Uint8Array(mesh.size);
   if (!numbers) return withStatus ? mesh.status.slice() : codes;
@@ -193,12 +194,12 @@ function quantile(sorted, percent) {
   return sorted[below] + (rank - below) * (sorted[below + 1] - sorted[below]);
 }
 
-// A range that was typed, as given_range of display/color_map.h: it depends on nothing else, so that two pages can
-// share it.
+// The range for typed bounds: given_range of display/color_map.h. It does not depend on the data, so different pages
+// can use the same colors.
 const givenRange = (lower, upper) => ({lower, upper, knee: Math.max(Math.abs(lower), Math.abs(upper)) / 100,
                                        isDiverging: lower === -upper, scale: 'linear'});
 
-// The place in [-1, 1] of a number among ascending ones: an Equalization of display/color_map.h.
+// The relative rank in [-1, 1] of a number among ascending ones: Equalization of display/color_map.h.
 function rankAmong(knots, number) {
   const last = knots.length - 1;
   let first = 0, end = last + 1;
@@ -214,8 +215,8 @@ function rankAmong(knots, number) {
   return 2 * (first - 1 + (number - knots[first - 1]) / (knots[first] - knots[first - 1])) / last - 1;
 }
 
-// The function from numbers to places along the bar: 0 and 1 at the ends of the range, not clipped beyond. Inside, this
-// is Color_mapping of display/color_map.h, with [-1, 1] of the diverging map brought to [0, 1].
+// Returns the function from numbers to positions along the color bar: 0 and 1 at the ends of the range, not clipped
+// outside. Inside it is Color_mapping of display/color_map.h, with [-1, 1] of the diverging map mapped to [0, 1].
 function placesAlong({lower, upper, knee, isDiverging}, scale, knots) {
   const scaled = {linear: x => x, logarithmic: x => Math.asinh(x / knee), equalized: x => rankAmong(knots, x)}[scale];
   const part = (begin, end) => {
@@ -232,7 +233,7 @@ function colorAt(position, range) {
   return table[Math.round(position * (table.length - 1))];
 }
 
-// Round numbers inside the range, at most about `most` of them.
+// Round numbers inside the range, about `most` at most.
 function ticks(range, scale, place, most) {
   const result = [];
   if (scale === 'linear') {
@@ -262,14 +263,14 @@ function ticks(range, scale, place, most) {
 
 const superscript = text => text.replace(/./g, c => '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'['-0123456789'.indexOf(c)]);
 const powerOfTen = exponent => '10' + superscript(String(Number(exponent)));
-// No digit beyond those asked for is shown: what has more places before the point gets a power of ten.
+// Shows at most `digits` digits. Numbers with more digits before the decimal point use a power of ten.
 function readable(value, digits = 6) {
   if (Number.isNaN(value)) return '–';
   if (!isFinite(value)) return value > 0 ? '∞' : '−∞';
   const rounded = Number(value.toPrecision(digits)), places = rounded.toExponential().split('e')[1];
   return scientific(places >= digits || places < -5 ? rounded.toExponential() : String(rounded));
 }
-// With the digits that the estimated error leaves; an error of more than the column's range leaves none.
+// Shows the digits that are significant given the estimated error; 'unknown' if the error exceeds the column's range.
 function readableWithin(value, error, range) {
   if (error === undefined || !isFinite(value)) return readable(value);
   if (!(error <= range.upper - range.lower)) return 'unknown';

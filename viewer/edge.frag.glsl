@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pixels of edges.
+// Fragment shader of edges.
 
 #version 300 es
 precision highp float;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ends of edges.
+// Vertex shader of edges.
 
 layout(location = 0) in vec3 position;
 out float vKept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The camera, the cut, the ray that finds the vertex under the pointer, edges and needles.
+// The camera, the cutting plane, ray casting, edges and needles.
 
 const add = (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -21,8 +21,8 @@ function radiusOfMesh() {
   return most > 0 ? most : 1;
 }
 
-// Looks at `target` from `distance` along `back`; right, up, back are orthonormal; dragging turns around `axis`.
-// Positions are relative to the center.
+// Looks at `target` from `distance` along `back`. right, up, back are orthonormal. Dragging rotates around `axis`.
+// Positions are relative to facts.center.
 const camera = {
   target: [0, 0, 0], right: [1, 0, 0], up: [0, 1, 0], back: [0, 0, 1], distance: 4, axis: [0, 0, 1],
 };
@@ -42,7 +42,7 @@ function firstView() {
   lookFrom(add(add(front, cross(axis, front), 0.5), axis, 0.62));
 }
 
-// The least distance from which everything is seen, and a margin.
+// Sets the smallest distance from which the whole surface is visible, with a margin.
 function fitDistance(aspect) {
   const {positions} = mesh, {right, up, back, target} = camera;
   const wide = 1 / (tanHalfView * aspect), high = 1 / tanHalfView;
@@ -65,7 +65,7 @@ function orbit(dx, dy) {
   camera.up = cross(camera.back, camera.right);
 }
 
-// (x, y) in [-1, 1] x [-1, 1] is a place of the stage; what is there on the plane of the target stays there.
+// Keeps the point at position (x, y) in [-1, 1] x [-1, 1] of the view, in the plane of the target, at this position.
 function zoom(factor, x, y, aspect) {
   const before = camera.distance;
   camera.distance = Math.min(50 * radius, Math.max(1e-4 * radius, before * factor));
@@ -78,11 +78,12 @@ function pan(dx, dy, aspect) {
   camera.target = add(add(camera.target, camera.right, -dx * aspect * reach), camera.up, -dy * reach);
 }
 
-// What is beyond the plane `cut.normal` * p = `cut.place` is not drawn.
+// Points p with `cut.normal` * p > `cut.place` are not drawn.
 const cut = {normal: [0, 0, 0], place: 1};
 const isCutOff = p => dot(cut.normal, p) > cut.place;
 
-// The side of the surface in direction `word` (such as -x) goes away, beyond this share of the way towards it.
+// Cuts off the side of the surface in direction `word`, such as -x. `share` is the position of the cut: 0 cuts off
+// everything, 1 nothing.
 const cutWords = ['none', 'x', 'y', 'z', '-x', '-y', '-z'];
 function setCut(word, share) {
   const k = 'xyz'.indexOf(word.at(-1)), sign = word.startsWith('-') ? -1 : 1;
@@ -98,7 +99,7 @@ function setCut(word, share) {
   cut.place = low + share * (high - low);
 }
 
-// The first triangle hit by the ray through (x, y): the point and the vertex nearest to it, or null.
+// Intersects the surface with the ray through (x, y). Returns the first point and the nearest vertex, or null.
 function cast(x, y, aspect) {
   const eye = add(camera.target, camera.back, camera.distance);
   const forward = camera.back.map(v => -v);
@@ -147,7 +148,7 @@ function uniqueEdges() {
   return edges.slice(0, count);
 }
 
-// Needles at vertices spread evenly in space: at most one in each cell of a grid.
+// Needles at vertices that are distributed evenly: at most one in each cell of a grid.
 function needles(vector, cells = 22) {
   const [vx, vy, vz] = vector.parts.map(part => part.values()), cell = 2 * radius / cells;
   const chosen = new Map();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pixels of marks, discs and rings.
+// Fragment shader of marks: discs and rings.
 
 #version 300 es
 precision highp float;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pixels of needles.
+// Fragment shader of needles.
 
 #version 300 es
 precision highp float;

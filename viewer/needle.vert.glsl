@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Needles, which show vectors, and their heads.
+// Vertex shader of needles, which show vectors.
 
 layout(location = 0) in vec3 base; layout(location = 1) in vec3 span;
 uniform vec2 viewport; uniform float width; uniform bool hasHeads;
 out float vAcross, vHalf;
-// A strip of seven vertices: both sides of the shaft at its begin and at its neck, the head there, and the tip.
+// A strip of seven vertices: two at the base of the shaft, two at its end, two at the base of the head, and the tip.
 const float places[4] = float[](0.0, 0.62, 0.62, 1.0), widths[4] = float[](1.0, 1.0, 2.6, 0.0);
 void main() {
   int place = gl_VertexID / 2;

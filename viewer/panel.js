@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is chosen, and the parts of the panel that change with it.
+// The selected options, and the parts of the panel that depend on them.
 
 const canvas = byId('view'), stage = byId('stage');
-// scale: linear, logarithmic, equalized, or auto for the one that suits the quantity.
+// scale: linear, logarithmic, equalized, or auto, which chooses one for each quantity.
 const choice = {quantity: plain, scale: 'auto', clip: 0, hasMarks: true, edges: false, isolines: false,
                 vectors: null, picked: null, origin: null, range: null, cut: ['none', 0.5]};
-// shown: {values, codes, sides, errors} of the quantity. The bar has its range, scale, and place(number) along it.
+// shown: {values, codes, sides, errors} of the quantity. range, scale and place(number) define the color bar.
 let scene = null, range = null, scale = 'linear', place = null, shown = null, areas = null;
 const aspect = () => canvas.width / canvas.height;
 
@@ -45,12 +45,12 @@ function element(tag, className, text = '') {
   return result;
 }
 
-// The quantity changed, or which points count.
+// Updates the page after a change of the quantity or of choice.hasMarks.
 function update() {
   const {quantity} = choice, numbers = quantity.ranges ? filled(quantity) : null, errors = errorColumn(quantity);
   const withStatus = mesh.status.length && (quantity === statusQuantity || (numbers && choice.hasMarks));
   const sides = vertexSides(quantity), codes = vertexCodes(numbers, withStatus, sides);
-  const values = codes.includes(0) ? numbers : null;  // no bar without a color that shows a number
+  const values = codes.includes(0) ? numbers : null;  // no color bar unless some vertex has a number
   shown = {values, codes, sides, errors: values && errors && filled(errors)};
   byId('quantity').value = quantity.name;
   byId('mapping').hidden = byId('scale').hidden = !values;
@@ -60,17 +60,17 @@ function update() {
   updateColors();
 }
 
-// The range of a column for the clip that is chosen, or the only one.
+// The range of a column for the selected clip, or its only range.
 const rangeOf = column => column.ranges[facts.clipSteps.indexOf(choice.clip)] ?? column.ranges[0];
 
-// What the quantity is; a range of one sign is not red and blue.
+// Describes the quantity, and the colors of a range of one sign, which are not diverging.
 function showMeaning() {
   const {meaning = ''} = choice.quantity;
   const isOfOneSign = meaning && range && !range.isDiverging;
-  byId('meaning').textContent = meaning + (isOfOneSign ? ' Here, pale is the least number and dark the greatest.' : '');
+  byId('meaning').textContent = meaning + (isOfOneSign ? ' Here, pale colors mean small values, dark ones large.' : '');
 }
 
-// The same numbers, other colors.
+// Updates the colors, for the same numbers.
 function updateColors() {
   const {values, codes, sides, errors} = shown, levels = new Float32Array(mesh.size);
   const doubts = new Float32Array(mesh.size), {quantity} = choice;
@@ -116,7 +116,7 @@ function showRange() {
   });
 }
 
-// A bound that is left empty, or as it was shown, stays what it is.
+// A bound that is empty or unchanged keeps its value.
 function takeTypedRange() {
   const typed = ['lowest', 'highest'].map((id, k) => {
     const text = byId(id).value.trim(), bound = [range.lower, range.upper][k];
@@ -128,7 +128,7 @@ function takeTypedRange() {
   setRange(typed);
 }
 
-// Of the numbers that are known, if there are errors.
+// If there are errors, the statistics are those of the known numbers.
 function showStatistics() {
   const {statistics, unknown} = choice.quantity, table = byId('statistics');
   table.replaceChildren();
@@ -140,7 +140,7 @@ function showStatistics() {
   if (shown.errors) addRow(table, element('span', 'quiet', 'unknown'), readable(100 * unknown, 3) + ' %');
 }
 
-// The colors of points without a number, as [color, text, number of points]; the last is missing for a curve.
+// The legend of colors of points without a number: [color, text, number of points], without a number for curves.
 function legendEntries() {
   const isStatus = choice.quantity === statusQuantity, {codes, sides} = shown, entries = [];
   const countOf = code => codes.reduce((sum, each) => sum + (each === code), 0);

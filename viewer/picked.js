@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The numbers of the picked vertex, vectors, and showing the panel.
+// The values of the picked vertex, vectors, and visibility of the panel.
 
-// Everything known about a vertex: [column, number, digits that are true].
+// All values of a vertex: [column, value, number of correct digits].
 function numbersOf(vertex) {
   const fine = radius * 2 ** -24;
   const rows = ['x', 'y', 'z'].map((name, k) => {
@@ -12,7 +12,7 @@ function numbersOf(vertex) {
   return rows;
 }
 
-// The shown quantity stands first.
+// Lists the values of the picked vertex, that of the current quantity first.
 function showPicked() {
   const {picked, origin, quantity} = choice;
   byId('picked').hidden = picked === null;
@@ -45,7 +45,7 @@ function copyText(text, button) {
     const area = element('textarea', '', text);
     document.body.append(area);
     area.select();
-    report(document.execCommand('copy') ? 'copied' : 'not allowed');
+    report(document.execCommand('copy') ? 'copied' : 'blocked by the browser');
     area.remove();
   };
   if (navigator.clipboard) navigator.clipboard.writeText(text).then(() => report('copied'), byHand);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures with a legend, and the numbers of the page as files.
+// Saves pictures with a legend, and the values of the page as files.
 
-// A file is named after the surface and, if it shows one, the quantity.
+// Files are named after the surface, and pictures also after the quantity.
 function fileName(extension, ...parts) {
   const clean = text => text.replace(/[^\p{L}\p{N}_.]+/gu, '-').replace(/^-+|-+$/g, '');
   return [document.title, ...parts].map(clean).filter(Boolean).join('-') + '.' + extension;
@@ -15,7 +15,8 @@ function saveFile(blob, name) {
   setTimeout(() => URL.revokeObjectURL(anchor.href), 10000);
 }
 
-// Draws the surface into a canvas of that size and calls use(that canvas), all in one task: no frame shows it.
+// Resizes the canvas, draws the surface, calls use(canvas) and restores the canvas, in one task so that no frame shows
+// it. Returns false, without calling `use`, if this size is not supported.
 function drawSized(width, height, pixels, use) {
   const before = {width: canvas.width, height: canvas.height, distance: camera.distance};
   const widened = aspect() * height / width;
@@ -30,9 +31,9 @@ function drawSized(width, height, pixels, use) {
   return isWhole;
 }
 
-const legendHeight = 62, noteHeight = 18;  // as large as in the program's pictures, where a picture is 1000 pixels wide
+const legendHeight = 62, noteHeight = 18;  // as in the program's pictures, for a width of 1000 pixels
 
-// The name of the quantity over its color bar, in the lower left corner of a picture of height `height`.
+// Draws notes, the name of the quantity and the color bar in the lower left corner of a picture of height `height`.
 function drawLegend(pen, height, notes) {
   const left = 16, width = 320, top = height - 40;
   pen.font = '13px system-ui, "DejaVu Sans", sans-serif';
@@ -60,21 +61,23 @@ function drawLegend(pen, height, notes) {
 
 function savePicture() {
   const size = ['picture-width', 'picture-height'].map(id => Math.round(Number(byId(id).value)));
-  if (!size.every(pixels => pixels >= 100 && pixels <= 10000)) return sayAboutPicture('100 to 10000 pixels');
+  if (!size.every(pixels => pixels >= 100 && pixels <= 10000))
+    return sayAboutPicture('Enter a width and a height from 100 to 10000 pixels.');
   const [width, height] = size, scale = Math.max(1, width / 1000), notes = legendEntries();
   const legend = Math.round(scale * ((range ? legendHeight : 8) + noteHeight * notes.length));
-  if (legend >= height) return sayAboutPicture('too low for its legend');
+  if (legend >= height)
+    return sayAboutPicture(`The legend needs ${legend} of ${height} pixels of height; increase the height.`);
   const picture = document.createElement('canvas'), pen = picture.getContext('2d');
   Object.assign(picture, {width, height});
   pen.fillStyle = '#fff';
   pen.fillRect(0, 0, width, height);
   const isDrawn = drawSized(width, height - legend, scale, drawn => pen.drawImage(drawn, 0, 0));
-  if (!isDrawn) return sayAboutPicture('too large for this device');
+  if (!isDrawn) return sayAboutPicture('The picture is too large for this device; reduce its size.');
   pen.scale(scale, scale);
   drawLegend(pen, height / scale, notes);
   sayAboutPicture('');
   picture.toBlob(blob => blob ? saveFile(blob, fileName('png', choice.quantity.name))
-                              : sayAboutPicture('too large for this browser'));
+                              : sayAboutPicture('The picture is too large for this browser; reduce its size.'));
 }
 function sayAboutPicture(text) { byId('picture-message').textContent = text; }
 
@@ -85,7 +88,7 @@ function eachPosition(use) {
     use(i, cx + positions[3 * i], cy + positions[3 * i + 1], cz + positions[3 * i + 2]);
 }
 
-// Nine digits restore every number of single precision.
+// Nine digits represent every number in single precision exactly.
 const csvNumber = value =>
     isFinite(value) ? String(Number(value.toPrecision(9))) : isNaN(value) ? 'nan' : value > 0 ? 'inf' : '-inf';
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The histogram over the color bar, with ticks and unit.
+// The histogram above the color bar, with ticks and unit.
 
 const dimensionOf = weight => (weight % 2 ? `${weight}/2` : `${weight / 2}`).replace('-', '−');
 function showUnit(power) {
@@ -7,20 +7,21 @@ function showUnit(power) {
   unit.replaceChildren(power ? '· ' + powerOfTen(power) + ' ' : '');
   if (weight) unit.append('length', element('sup', '', dimensionOf(weight)));
 }
-// The same as text, after a title.
+// The power of ten and the unit as text, for the title of a color bar.
 function unitText(power) {
   const {weight} = choice.quantity, dimension = dimensionOf(weight);
   return (power ? ' · ' + powerOfTen(power) : '') +
          (weight ? ', length' + (weight % 2 ? `^(${dimension})` : superscript(dimension.replace('−', '-'))) : '');
 }
 
-// Without long rows of zeros: the ticks of a logarithmic scale are round, but of any size.
+// Uses powers of ten for very large and small ticks of a nonlinear scale, to avoid long sequences of zeros.
 function compact(value) {
   const size = Math.abs(value), isNear = value === 0 || (size >= 1e-3 && size < 1e5);
   return isNear || scale === 'linear' ? readable(value, 12) : scientific(value.toExponential());
 }
 
-// As many ticks as have room for their labels; large and small numbers share a power of ten on a linear scale.
+// The largest number of ticks whose labels do not overlap. On a linear scale, large and small numbers share a power of
+// ten.
 function labelledTicks(widthOf, pixel, width) {
   for (let most = 6;; --most) {
     const values = ticks(range, scale, place, most);
@@ -36,7 +37,7 @@ function labelledTicks(widthOf, pixel, width) {
   }
 }
 
-// The area of every bar inside the range and of the two tails outside, as shares of all.
+// The area of each bar inside the range and of the two tails outside, as fractions of the total.
 function areaShares(count) {
   areas ??= vertexAreas();
   const bars = new Float64Array(count), tails = [0, 0];
@@ -52,7 +53,7 @@ function areaShares(count) {
   return {bars: bars.map(area => area / total), tails: tails.map(area => area / total)};
 }
 
-const tail = 14;  // width of the places for what is clipped, on both sides of the bar
+const tail = 14;  // width of the parts for clipped values at both ends of the bar
 
 function drawHistogram(pen, left, right, base, quiet) {
   const {bars, tails} = areaShares(64), step = (right - left) / bars.length, highest = Math.max(...bars) || 1;
@@ -91,7 +92,7 @@ function drawColorBar(pen, left, right, top) {
   pen.fillRect(left, top, right - left, 12);
 }
 
-// A triangle that points to the number of the picked vertex.
+// Draws a triangle that points to the value of the picked vertex.
 function drawPointer(pen, x, base, rim) {
   pen.beginPath();
   pen.moveTo(x, base + 1); pen.lineTo(x - 5, base - 8); pen.lineTo(x + 5, base - 8); pen.closePath();
@@ -100,7 +101,7 @@ function drawPointer(pen, x, base, rim) {
   pen.stroke();
 }
 
-// Histogram over the color bar: the same axis for both, what is clipped in a bar at each end.
+// Draws the histogram and the color bar on the same axis, with a bar for clipped values at each end.
 function drawScale() {
   const {quantity, picked} = choice, canvas = byId('histogram');
   const width = canvas.clientWidth, height = canvas.clientHeight;

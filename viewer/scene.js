@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The WebGL 2 objects and the drawing of one picture.
+// WebGL 2 objects and drawing.
 
 const bytesOfColor = text => [1, 3, 5].map(i => parseInt(text.slice(i, i + 2), 16));
 const channels = text => bytesOfColor(text).map(byte => byte / 255);
 
-// A shader program, with the places of its uniforms by name.
+// A shader program; at(name) returns the location of a uniform.
 function createProgram(gl, ...sources) {
   const result = gl.createProgram();
   sources.forEach((source, i) => {
@@ -43,7 +43,7 @@ class Scene {
     this.setMap([facts.plain]);
   }
 
-  // Takes the mesh, without colors.
+  // Uploads the mesh, without colors.
   fillSurface() {
     const {gl} = this;
     const {normals, triangles, origins} = splitAtCreases(vertexNormals());
@@ -76,7 +76,7 @@ class Scene {
     gl.bufferData(target, data, gl.STATIC_DRAW);
   }
 
-  // The same of numbers at vertices, and at their copies at creases.
+  // Fills a buffer with data of the vertices and of their copies at creases.
   fillVertices(name, data) {
     const {origins} = this, count = data.length / mesh.size;
     const all = origins.length ? new data.constructor(data.length + count * origins.length) : data;
@@ -86,7 +86,7 @@ class Scene {
     this.fill(name, all);
   }
 
-  // attributes: [place, buffer, components, type, stride, offset, divisor]
+  // attributes: [location, buffer, components, type, stride, offset, divisor]
   bind(name, attributes, indexBuffer) {
     const {gl} = this;
     gl.bindVertexArray(this.arrays[name] = gl.createVertexArray());
@@ -106,8 +106,8 @@ class Scene {
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, table.length, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, texels);
   }
 
-  // levels in [0, 1] along `table`, grayer where `doubts` are near 1, or a plain surface without a table; isolines are
-  // levels. `sides` is null, or separates the surface where it is 0; it is NaN where it is not known.
+  // `levels` are positions in [0, 1] along the colors of `table`; without a table the surface has one color. Colors are
+  // grayer where `doubts` are near 1. `sides` is null, or divides the surface where it is 0; NaN means unknown.
   setColors({levels, doubts, codes, sides, region}, table) {
     this.fillVertices('level', levels);
     this.fillVertices('doubt', doubts);
@@ -120,7 +120,7 @@ class Scene {
     const marked = [];
     const isMarked = (code, i) => code === 1 ? !sides && mesh.parts[i] !== 2 : code >= 2 && code <= 4;
     codes.forEach((code, i) => { if (isMarked(code, i)) marked.push(i); });
-    this.markedCount = marked.length <= 3000 ? marked.length : 0;  // more of them are seen without dots
+    this.markedCount = marked.length <= 3000 ? marked.length : 0;  // more are visible without dots
     this.fill('marked', new Uint32Array(marked.slice(0, this.markedCount)), this.gl.ELEMENT_ARRAY_BUFFER);
   }
 
@@ -132,7 +132,7 @@ class Scene {
     this.fill('needles', data);
   }
 
-  // Uses a program with the camera of now.
+  // Uses a program with the current camera.
   place(program) {
     const {gl, canvas} = this, {right, up, back, target, distance} = camera;
     const center = Math.hypot(...target), far = distance + center + 1.5 * radius;
@@ -189,7 +189,7 @@ class Scene {
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, this.hasHeads ? 7 : 4, this.needleCount);
   }
 
-  // Dots at `count` marked points, or a ring at the point `first`.
+  // Draws dots at `count` marked points, or a ring at the point `first`.
   drawMarks(size, isRing, opacity, count, first) {
     const {gl, mark} = this;
     gl.uniform1f(mark.at('size'), size);
@@ -201,7 +201,7 @@ class Scene {
     else gl.drawElements(gl.POINTS, count, gl.UNSIGNED_INT, 0);
   }
 
-  // A ring that is hidden by the surface is seen faintly.
+  // Draws dots and rings. A ring that is hidden by the surface remains faintly visible.
   drawAllMarks(ringed, pixels) {
     const {gl, markedCount} = this;
     this.place(this.mark);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The programs of the graphics processor. The build puts the file of that name in the place of each @FILE@.
+// The shaders. The build replaces each @FILE@ by the content of this file.
 
 const placing = `@placing.glsl@
 `;

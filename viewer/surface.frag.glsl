@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The pixels of triangles: color, isolines, parabolic lines, light.
+// Fragment shader of triangles: color, isolines, parabolic lines, lighting.
 
 #version 300 es
 precision highp float;
@@ -10,7 +10,7 @@ uniform float isolines[24], pixels; uniform int isolineCount; uniform bool hasSi
 out vec4 color;
 void main() {
   if (vKept < 0.0) discard;
-  // A number that does not exist where vSide is 0 is interpolated on each side of that line by itself.
+  // A quantity that is undefined where vSide is 0 is interpolated separately on each side of that line.
   vec3 all = vConvex + vSaddle, same = vSide >= 0.0 ? vConvex : vSaddle, known = same.y > 0.0 ? same : all;
   float level = known.x / max(known.y, 1e-6), entries = float(textureSize(map, 0).x);
   float slope = fwidth(level);
@@ -21,7 +21,7 @@ void main() {
   float line = 0.0, most = all.y, parabolic = 0.0;
   for (int i = 0; i < isolineCount; ++i)
     if (slope > 1e-6) line = max(line, 1.0 - smoothstep(0.5, 1.3, abs(level - isolines[i]) / slope));
-  bool hasLine = hasSides && vNoSide == 0.0;  // a triangle with a corner whose side is not known has none
+  bool hasLine = hasSides && vNoSide == 0.0;  // there is no line in a triangle with a corner of unknown side
   if (hasLine) parabolic = 1.0 - smoothstep(0.5, 1.0, abs(vSide) / max(fwidth(vSide) * pixels, 1e-30));
   base = mix(base, statusColors[0], parabolic);
   line *= 1.0 - parabolic;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The vertices of triangles.
+// Vertex shader of triangles.
 
 layout(location = 0) in vec3 position; layout(location = 1) in vec3 normal;
 layout(location = 2) in float level; layout(location = 3) in uint code; layout(location = 4) in float side;
@@ -8,7 +8,7 @@ out vec3 vPosition, vNormal, vConvex, vSaddle; out vec4 vStatus; out float vUnde
 void main() {
   vPosition = seen(position);
   vNormal = turn * normal;
-  // Only vertices with a number take part in the interpolation.
+  // Only vertices with a number contribute to the interpolation.
   vec3 known = code == 0u ? vec3(level, 1, doubt) : vec3(0);
   vConvex = side >= 0.0 ? known : vec3(0);
   vSaddle = known - vConvex;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The functions of the module, compiled for this machine with its least instruction set: the program reads lines
-// `NODES FORMULA`, computes the surface of each in the box [-1.2, 1.2]^3 and writes the milliseconds.
+// The functions of the browser module, compiled for this machine with its baseline instruction set. The program reads
+// lines `NODES FORMULA`, computes the surface of each in the box [-1.2, 1.2]^3, and prints the time in milliseconds.
 #include "../../bindings/browser/module.cpp"
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The module in node beside the same functions compiled for this machine, in turn: run.mjs MODULE_FOLDER PEER PAGE.
+// Compares the module in node with the same functions as native code, alternately: run.mjs MODULE_FOLDER PEER PAGE.
 import {spawn} from 'node:child_process';
 import {readFileSync, statSync} from 'node:fs';
 import {createInterface} from 'node:readline';
@@ -32,7 +32,7 @@ for (const [nodes, rounds] of [[64, 41], [128, 21], [256, 9]]) {
 }
 peer.stdin.end();
 
-// What a frame of the playground computes while a slider moves.
+// The computation of one frame of the playground while a slider moves.
 const text = readFileSync(new URL('../../bindings/browser/examples.js', import.meta.url), 'utf8');
 const examples = new Function(text + 'return examples;')();
 let smooth = 0;

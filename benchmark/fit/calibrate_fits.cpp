@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibrate_fits MESH...: the rows of Fitted_numbers.h that would be right for the fits as they are, on standard output;
-// what the present rows cover goes to standard error. Surfaces whose numbers are known come with noise of 0 to 5 % of an
-// edge, on coarse and fine grids; of each mesh, two halves of the vertices tell the errors at the scale that is chosen.
+// calibrate_fits MESH... prints the rows of Fitted_numbers.h that are correct for the current fits, and to standard
+// error the coverage of the current rows. Known surfaces are used with noise of 0 to 5 % of an edge, on coarse and fine
+// grids. For each mesh, the errors at the chosen scale are estimated from two halves of its vertices.
 #include "fit/Curvature_fit_3.h"
 #include "fit/Fitted_data_3.h"
 #include "fit/Fitted_numbers.h"
@@ -30,7 +30,7 @@ using namespace equiaffine;
 using Kernel = CGAL::Simple_cartesian<double>;
 
 constexpr std::array<const char*, 4> names_of_sources = {"DETAIL", "BOTH", "NOISE", "SCALE"};
-/// An error and what estimates it, as parts of the sizes of the numbers.
+/// An error and its estimates, relative to the sizes of the numbers.
 struct Sample {
   std::size_t mesh;
   internal::Number_errors error, estimate; // without the factor
@@ -53,8 +53,8 @@ const std::vector<Surface> surfaces = {
     {"2*y*(y^2-3*x^2)*(1-z^2)+(x^2+y^2)^2-(9*z^2-1)*(1-z^2)", 2.2},
     {"(x^2+2.25*y^2+z^2-1)^3-x^2*z^3-.1125*y^2*z^3-.02", 1.6}};
 
-/// Compares fits with the surface that was sampled by `nodes` per axis, with a deviation of `noise` times the edge of the
-/// grid.
+/// Compares fits with the sampled surface, for `nodes` nodes per axis and a standard deviation of `noise` times the
+/// grid spacing.
 void compare_with_surface(std::size_t surface, std::size_t nodes, double noise, std::mt19937& random,
                           All_samples& result) {
   constexpr std::size_t most_points = 300;
@@ -84,7 +84,8 @@ void compare_with_surface(std::size_t surface, std::size_t nodes, double noise, 
   }
 }
 
-/// Compares halves of the vertices of a mesh, as points with normals. A twentieth of them are in both, to be compared.
+/// Compares the fits of two halves of the vertices of a mesh, as points with normals, at the twentieth of the vertices
+/// that both contain.
 void compare_halves(std::size_t mesh, const std::string& file, std::mt19937& random, All_samples& result) {
   constexpr std::size_t most_common = 400;
   std::vector<Kernel::Point_3> points;
@@ -130,8 +131,8 @@ void compare_halves(std::size_t mesh, const std::string& file, std::mt19937& ran
 }
 
 struct Coverage {
-  double part = 1;         ///< of the errors whose estimates are known
-  double low_part = 1;     ///< that on the mesh where it is least but one
+  double part = 1;         ///< fraction of the errors whose estimates are known
+  double low_part = 1;     ///< the second smallest fraction of all meshes
   double median_ratio = 0; ///< of estimates to errors
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// This is compiled with the headers of CGAL 6 into a library of its own, which shows one function: the rest of the
-// program has those of the installed CGAL.
+// Compiled with the headers of CGAL 6 into a separate library that exports one function. The rest of the program uses
+// the installed CGAL.
 #include "curvature_peers.h"
 
 #include <CGAL/Polygon_mesh_processing/interpolated_corrected_curvatures.h>

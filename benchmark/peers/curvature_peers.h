@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Euclidean curvatures of meshes and points as other libraries estimate them. Each has a translation unit of its own.
+// Euclidean curvatures of meshes and points estimated by other libraries, each in a separate translation unit.
 #ifndef EQUIAFFINE_BENCHMARK_CURVATURE_PEERS_H
 #define EQUIAFFINE_BENCHMARK_CURVATURE_PEERS_H
 
@@ -18,7 +18,7 @@ struct Euclidean_curvatures {
   std::vector<double> mean, gaussian;
 };
 
-/// CGAL 6's interpolated corrected curvatures over balls of the given radius, or with 0 over the adjacent triangles.
+/// CGAL 6's interpolated corrected curvatures over balls of the given radius, or over the adjacent triangles for 0.
 Euclidean_curvatures corrected_curvatures(const Plain_mesh& mesh, double radius);
 
 /// PCL's moving least squares with polynomials of the given degree over balls of the given radius.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// OpenVDB's distances to a mesh. OpenVDB has a translation unit of its own.
+// OpenVDB's distances to a mesh, in a separate translation unit.
 #ifndef EQUIAFFINE_BENCHMARK_DISTANCE_OPENVDB_H
 #define EQUIAFFINE_BENCHMARK_DISTANCE_OPENVDB_H
 
@@ -13,8 +13,8 @@ struct Mesh_on_lattice {
   std::vector<std::array<std::size_t, 3>> triangles;
 };
 
-/// Signed distances by meshToSignedDistanceField in steps, at the nodes of a lattice of the given size as in
-/// `Volume_3::values`; farther than `band` steps they are its background values.
+/// Signed distances by meshToSignedDistanceField in steps, at the nodes of a lattice of the given size, ordered as in
+/// `Volume_3::values`. Beyond `band` steps they are the background value.
 std::vector<float> openvdb_distances(const Mesh_on_lattice& mesh, const std::array<std::size_t, 3>& size, float band);
 
 #endif

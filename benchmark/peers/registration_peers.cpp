@@ -20,7 +20,7 @@ namespace {
 
 using Affine = Eigen::Affine3d;
 
-constexpr int steps = 200; ///< of iterated closest points
+constexpr int steps = 200; ///< of iterative closest points
 
 template <int Dimension>
 using Tree = equiaffine::Point_tree<Dimension>;
@@ -32,7 +32,7 @@ Tree<Dimension> tree_of(const Points& points) {
   return Tree<Dimension>(positions, [&](std::size_t i) { return points[i]; });
 }
 
-/// The mean of points and the root of their covariance.
+/// The mean of points and the square root of their covariance.
 struct Moments {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d root;
@@ -47,7 +47,7 @@ struct Moments {
   }
 };
 
-/// The affine map by least squares from some points to others.
+/// The least-squares affine map between corresponding points.
 Affine affine_map(const Vectors& from, const Vectors& to) {
   Eigen::MatrixXd rows(Eigen::Index(from.size()), 4), images(Eigen::Index(from.size()), 3);
   for (std::size_t i = 0; i < from.size(); ++i) {
@@ -61,7 +61,7 @@ Affine affine_map(const Vectors& from, const Vectors& to) {
   return map;
 }
 
-/// Registers points with those of a tree, each of up to 500 with the nearest one.
+/// Registers up to 500 of the points with their nearest points in a tree.
 class Closest_points {
 public:
   Closest_points(const Vectors& source, const Vectors& target)
@@ -103,7 +103,7 @@ Affine map_about(const Moments& from, const Eigen::Matrix3d& matrix, const Momen
   return Eigen::Translation3d(to.mean) * Affine(matrix) * Eigen::Translation3d(-from.mean);
 }
 
-/// A map whose median distance shrinks with the source is no better: distances count in the size of the moved source.
+/// Distances are relative to the size of the moved source, so that a map that shrinks the source is not better.
 double badness(const Closest_points& points, const Affine& map, const Moments& source) {
   return points.median_distance(map) / (map.linear() * source.root).norm();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface whose affine structure is wrong everywhere, while its points and normals are right.
+// A surface with wrong affine structure, but correct points and normals.
 #ifndef EQUIAFFINE_BENCHMARK_REGISTRATION_DISTURBED_STRUCTURE_H
 #define EQUIAFFINE_BENCHMARK_REGISTRATION_DISTURBED_STRUCTURE_H
 
@@ -21,9 +21,9 @@ namespace registration_runs {
 using equiaffine::internal::Framed_point_3;
 using registration_cases::Random;
 
-/// Changes the structure of a function at a point by normal deviates that depend on the point: curvatures
-/// by a part of their size, their derivatives along the surface by three times that part, and the frame by that part of
-/// itself, in every direction.
+/// Changes the structure of a function at a point by normal deviates that depend on the point: curvatures by a fraction
+/// of their size, their derivatives along the surface by three times this fraction, and the frame by this fraction of
+/// itself in every direction.
 class Disturbed_structure final : public equiaffine::internal::Framed_function_3 {
 public:
   Disturbed_structure(equiaffine::Any_function_3 function, double part, unsigned seed)

@@ -37,8 +37,8 @@ struct Mesh {
   Fit fit() const { return Fit(points, triangles, {.scale = 0}); }
 };
 
-/// Irregular triangles with about so many vertices, which lie on the surface: the radius of the mesher's triangles is
-/// changed a few times.
+/// An irregular mesh with about this number of vertices on the surface, found by adapting the radius of the mesher's
+/// triangles.
 Mesh mesh_of(const Formula& function, double vertices) {
   const CGAL::Bbox_3 box = function.bbox();
   double radius = 0.02 * box.x_span();
@@ -63,7 +63,7 @@ void disturb(Points& points, double deviation, unsigned seed) {
   }
 }
 
-/// The vertices that lie furthest in a direction, `part` of all, and the triangles between them.
+/// The fraction `part` of the vertices that is farthest in a direction, with the triangles between them.
 Mesh piece_of(const Mesh& mesh, const Eigen::Vector3d& direction, double part) {
   const auto height = [&](const Point_3& p) { return -direction.dot(Eigen::Vector3d(p.x(), p.y(), p.z())); };
   std::vector<double> heights;

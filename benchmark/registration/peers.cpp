@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What other ways to register points by affine maps reach where ours is given the same points.
+// Compares other methods to register points by affine maps with ours, on the same points.
 #include "../peers/registration_peers.h"
 #include "runs.h"
 #include "support/registration_traits.h"
@@ -26,7 +26,7 @@ std::pair<Vectors, Signatures> signed_points(const internal::Framed_surface_3& s
 
 Map map_of(const Eigen::Affine3d& map) { return registration_cases::map_of(map.linear(), map.translation()); }
 
-/// One peer after the other, ours last, at pairs of which the source is a part of the surface.
+/// Runs all peers, and then our method, on pairs whose source is a part of the surface.
 void compare_at_part(double part, int repeats) {
   constexpr double right = 0.05; // peers match points with points, which are not images of each other
   const std::vector<const char*> names = {"ICP_1_start", "ICP_20_starts", "whitening_2000_rotations",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs of register_surfaces with a known map, and what comes of them.
+// Runs of register_surfaces with a known map, and their results.
 #ifndef EQUIAFFINE_BENCHMARK_REGISTRATION_RUNS_H
 #define EQUIAFFINE_BENCHMARK_REGISTRATION_RUNS_H
 
@@ -28,13 +28,13 @@ inline double lower_quantile(std::vector<double> values, double part) {
   return values.empty() ? 0 : nth_smallest(std::move(values), std::size_t(part * last));
 }
 
-/// What a row of runs is to reach.
+/// The targets of a row of runs.
 struct Targets {
   const char *right = ">=1", *median_error = "none", *greatest_error = "<=1e-12", *hypotheses = "none",
              *search = "none", *median_hypotheses = "none";
 };
 
-/// What came of the runs of a row. A run is right if the error of the matrix is at most `greatest_error`.
+/// The results of a row of runs. A run is right if the error of the matrix is at most `greatest_error`.
 class Row {
 public:
   using Framed_function_3 = internal::Framed_function_3;
@@ -42,14 +42,14 @@ public:
   explicit Row(const std::string& name, double greatest_error = 1e-6)
       : name_("registration_" + name), greatest_error_(greatest_error) {}
 
-  /// Registers two surfaces, and compares the map with the right one.
+  /// Registers two surfaces, and compares the map with the correct one.
   template <class Source, class Target>
   void run(const Source& source, const Points& points, const Target& target, const Points& target_points,
            const Map& right, const Registration_options& options = {}) {
     run(source, source, points, target, target, target_points, right, options);
   }
 
-  /// The same, with other functions to refine on.
+  /// The same, with different functions for the refinement.
   template <ImplicitFunctionTraits_3 Source, class Refined_source, class Target, class Refined_target>
   void run(const Source& source, const Refined_source& refined_source, const Points& points, const Target& target,
            const Refined_target& refined_target, const Points& target_points, const Map& right,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What each threshold of the search by affine frames is good for: hard cases with one of them halved, or doubled.
+// The effect of each threshold of the search by affine frames: hard cases with one threshold halved or doubled.
 #include "Disturbed_structure.h"
 #include "runs.h"
 
@@ -15,7 +15,7 @@ namespace {
 using Thresholds = internal::Frame_thresholds;
 using internal::Framed_function_3;
 
-/// A surface with its frames, and the functions that it refers to.
+/// A surface with its frames and functions.
 class Side {
 public:
   Side(const Any_function_3& function, double part, unsigned seed, const Points& points)
@@ -37,7 +37,7 @@ struct Case {
   Map right;
 };
 
-/// Maps of condition 30, and maps of condition 10 with structure that is wrong by a tenth.
+/// Maps of condition 30, and maps of condition 10 with relative errors of 0.1 of the structure.
 std::array<std::vector<Case>, 2> cases(const std::vector<Source>& sources, int repeats) {
   std::array<std::vector<Case>, 2> result;
   Random random(800);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Registration of sampled volumes: matched on the smoothed spline, refined on the one through the samples.
+// Registration of sampled volumes: matching uses the smoothed spline, refinement the spline through the samples.
 #include "runs.h"
 #include <equiaffine/function/Sampled_function_traits_3.h>
 #include <equiaffine/function/capabilities.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a user compiles for curvatures at a point; the benchmark `kernel` takes the time.
+// A user's program for curvatures at a point; the benchmark `kernel` measures its compile time.
 #include "surface.h"
 
 #include <iostream>

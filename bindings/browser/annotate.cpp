@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits to the vertices of a mesh, or to points: a unit of its own, which is compiled beside the other one, and to be
-// smaller.
+// Fits to the vertices of a mesh or to points. A separate translation unit, compiled for size and in parallel.
 #include "module.h"
 #include <equiaffine/attributes/Attribute_selection.h>
 #include <equiaffine/attributes/Fit_statistics.h>
@@ -14,7 +13,7 @@
 #include <string>
 #include <utility>
 
-/// Fits the vertices of a mesh, or points, in the bytes of a file; a negative scale lets the data choose one.
+/// Fits the vertices of a mesh or points, given as the bytes of a file. A negative scale: choose it from the data.
 EXPORTED int eq_annotate(const char* name, const char* bytes, int size, double scale, const char* attributes) {
   return outcome_of([&] {
     constexpr std::size_t most = 50000;
@@ -23,7 +22,7 @@ EXPORTED int eq_annotate(const char* name, const char* bytes, int size, double s
     auto file = equiaffine::read_points<Kernel>(stream, name, name);
     if (file.mesh.points.size() > most)
       throw equiaffine::Input_error("'" + std::string(name) + "' has " + std::to_string(file.mesh.points.size()) +
-                                    " points: here up to 50000 can be fitted, and any number by the program");
+                                    " points, but at most 50000 can be fitted here; use the program for more");
     const equiaffine::Fit_options options = {.scale = scale < 0 ? std::nullopt : std::optional(scale)};
     auto selection = equiaffine::select_attributes(attributes);
     selection.has_status = true;

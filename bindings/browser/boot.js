@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Unpacks the parts of the page, which are compressed by gzip and written seven bits a character, see make_page.py.
+// Unpacks the parts of the page, which are gzip data with seven bits per character; see make_page.py.
 
 (async () => {
   const forbidden = [0, 13, 60];
@@ -26,6 +26,7 @@
                                                       unpack('script').text()]);
     new Function('wasmBytes', 'workerText', script)(wasm, worker);
   } catch (error) {
-    document.getElementById('message').textContent = 'This page needs a browser of 2023 or later.\n' + error.message;
+    document.getElementById('message').textContent =
+        'This page could not start; use a browser of 2023 or later.\n' + error.message;
   }
 })();

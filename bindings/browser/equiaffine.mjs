@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The library for JavaScript: surfaces of formulas, and curvatures of meshes, with arrays as results. See index.d.ts.
+// The JavaScript library: surfaces of formulas, and curvatures of meshes. See index.d.ts.
 import createModule from './module.mjs';
 export {readVolume} from './volume_files.mjs';
 
-// A formula or a file that cannot be used. `excerpt` shows the place with a caret; `unknownName` is a name in the formula
-// that has no value.
+// An error in a formula, a file or an option. `excerpt` marks the place with a caret; `unknownName` is a name in the
+// formula that has no value.
 export class Mistake extends Error {
   constructor(message, excerpt, unknownName) {
     super(message);
@@ -24,7 +24,7 @@ export class Equiaffine {
   #module;
   constructor(module) { this.#module = module; }
 
-  // Whether a formula can be read; throws what is wrong with it.
+  // Throws a Mistake unless the formula is valid.
   parse(formula, constants = {}) {
     this.#call(pointers => this.#module._eq_parse(...this.#formula(pointers, formula, constants)));
   }
@@ -34,7 +34,7 @@ export class Equiaffine {
     return this.#surface();
   }
 
-  // Levels of the volume that came last, see readVolume().
+  // Meshes a level set of a volume, see readVolume().
   levelSet(volume, {level = 0, smoothing = 0, attributes = 'basic'} = {}) {
     this.takeVolume(volume, smoothing);
     const samples = this.extract({level, attributes});
@@ -46,27 +46,30 @@ export class Equiaffine {
     return this.#surface();
   }
 
-  // Computes what mesh(), levelSet() and annotate() do, and leaves it for page().
+  // sample(), takeVolume() with extract(), and fit() compute like mesh(), levelSet() and annotate(), but keep the
+  // result for page().
   sample(formula, {constants, box, resolution, level, attributes}) {
-    check(box?.length === 6 && [...box].every(isFinite), 'a box has six numbers: xmin, xmax, ymin, ymax, zmin, zmax');
+    check(box?.length === 6 && [...box].every(isFinite), 'box: give six numbers: xmin, xmax, ymin, ymax, zmin, zmax');
     check(Number.isInteger(resolution) && resolution >= 2 && resolution <= MOST_PER_AXIS,
-          `the resolution is a whole number from 2 to ${MOST_PER_AXIS}`);
-    check(isFinite(level), 'the level is a number');
+          `resolution: give a whole number from 2 to ${MOST_PER_AXIS}, not ${resolution}`);
+    check(isFinite(level), `level: give a finite number, not ${level}`);
     this.#call(pointers => this.#module._eq_mesh(...this.#formula(pointers, formula, constants),
                                                  this.#doubles(pointers, box), resolution, level,
                                                  this.#text(pointers, attributes)));
   }
   takeVolume({values, size, origin, steps}, smoothing) {
-    check(size?.length === 3 && values?.length === size[0] * size[1] * size[2], 'a volume has a number for each node');
-    check([origin, ...steps].length === 4 && [origin, ...steps].flat().length === 12, 'a volume has an origin and three steps');
-    check(isFinite(smoothing) && smoothing >= 0, 'the smoothing is a number, 0 or more');
+    check(size?.length === 3 && values?.length === size[0] * size[1] * size[2],
+          'volume: give three sizes, and one value for each node');
+    check([origin, ...steps].length === 4 && [origin, ...steps].flat().length === 12,
+          'volume: give an origin and three steps, each of three numbers');
+    check(isFinite(smoothing) && smoothing >= 0, `smoothing: give a finite number, 0 or more, not ${smoothing}`);
     const pointer = this.#module._eq_values(values.length);
-    if (!pointer) throw new Error('there is not enough memory');
+    if (!pointer) throw new Error('not enough memory for the volume; use a smaller one, or the program');
     this.#module.HEAPF64.set(values, pointer / 8);
     this.#call(pointers => this.#module._eq_volume(...size, this.#doubles(pointers, [origin, ...steps].flat()), smoothing));
   }
   extract({level, attributes}) {
-    check(isFinite(level), 'the level is a number');
+    check(isFinite(level), `level: give a finite number, not ${level}`);
     this.#call(pointers => this.#module._eq_level_set(level, this.#text(pointers, attributes)));
     return {noise: this.#module._eq_noise(), distinctValues: this.#module._eq_distinct_values() || null};
   }
@@ -76,7 +79,7 @@ export class Equiaffine {
                                                      scale ?? -1, this.#text(pointers, attributes)));
   }
 
-  // Returns what a page of the library shows of the last surface: its facts as JSON, and arrays of single precision.
+  // Returns the data of a page of the last surface: facts as JSON, and arrays in single precision.
   page() {
     this.#call(() => this.#module._eq_page());
     const {_eq_facts, _eq_number_of_columns, _eq_size} = this.#module, size = _eq_size(POINTS);
@@ -101,7 +104,7 @@ export class Equiaffine {
     };
   }
 
-  // Calls a function of the module with a list for what is to be freed, and throws what it says is wrong.
+  // Calls use(pointers), which calls a function of the module and lists memory to free; throws the error if it fails.
   #call(use) {
     const pointers = [], module = this.#module;
     let outcome;
@@ -119,7 +122,7 @@ export class Equiaffine {
 
   #bytes(pointers, bytes) {
     const pointer = this.#module._malloc(bytes.length + 1);
-    if (!pointer) throw new Error('there is not enough memory');
+    if (!pointer) throw new Error('not enough memory for the input; use a smaller one, or the program');
     pointers.push(pointer);
     this.#module.HEAPU8.set(bytes, pointer);
     this.#module.HEAPU8[pointer + bytes.length] = 0;
@@ -144,8 +147,8 @@ export class Equiaffine {
   }
 }
 
-// `wasm` is the bytes of equiaffine.wasm, or a WebAssembly.Module of them; without it, they are read from beside this file.
-// `onProgress` is called now and then in a long call: with the number of its stage, the steps that are done, and all.
+// `wasm` is the content of equiaffine.wasm or a WebAssembly.Module of it; by default the file next to this one is read.
+// Long calls report to onProgress(stage, done, total).
 export async function load({wasm, onProgress} = {}) {
   if (!wasm && globalThis.process?.versions?.node) {
     const {readFile} = await import('node:fs/promises');

@@ -1,23 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the playground, one file without anything from elsewhere: make_page.py ROOT MODULE_FOLDER PAGE.
+"""Makes the playground, a single self-contained file: make_page.py ROOT MODULE_FOLDER PAGE.
 
-It is the page of viewer/ with the controls and the script of bindings/browser/, and the module that scripts/browser
-has built."""
+It combines the page of viewer/, the controls and the script of bindings/browser/, and the module built by
+scripts/browser."""
 import gzip
 import pathlib
 import re
 import sys
 
-FORBIDDEN = (0, ord("\r"), ord("<"))  # characters that do not stay as they are in a script element
+FORBIDDEN = (0, ord("\r"), ord("<"))  # characters that HTML changes in a script element
 
 
 def part(path):
-    """The text of a file after its first lines, which say what it is."""
+    """The text of a file after its header comment."""
     return path.read_text().split("\n\n", 1)[1]
 
 
 def script_of(root):
-    """The script of the page, as cmake/embed_viewer.cmake puts it together, and that of the playground."""
+    """The script of the page, assembled as in cmake/embed_viewer.cmake, and that of the playground."""
     viewer = root / "viewer"
     parts = [part(viewer / f"{name}.js") for name in (viewer / "parts.txt").read_text().split()]
     text = re.sub(r"@([a-z.]+\.glsl)@", lambda match: part(viewer / match[1]).rstrip("\n"), "".join(parts))
@@ -26,7 +26,7 @@ def script_of(root):
 
 
 def worker_of(root, module_folder):
-    """Glue, library and worker as one classic script."""
+    """The Emscripten glue, the library and the worker as one classic script."""
     glue = (module_folder / "module.mjs").read_text().replace("import.meta.url", "'file:///'")
     glue = glue.replace("export default Module", "const createModule = Module")
     library = part(root / "bindings/browser/equiaffine.mjs").replace("import.meta.url", "'file:///'")
@@ -36,8 +36,8 @@ def worker_of(root, module_folder):
 
 
 def packed(name, content):
-    """An element with the content, compressed, seven bits a character. Where these would be a forbidden character, a
-    character of two bytes has its number among these and the next seven bits. boot.js reads this."""
+    """A script element with the compressed content, seven bits per character. A forbidden character is combined with
+    the next seven bits into a two-byte character that contains its index in FORBIDDEN. boot.js decodes this."""
     data = gzip.compress(content, 9, mtime=0)
     bits = "".join(f"{byte:08b}" for byte in data)
     sevens = iter([int(bits[k:k + 7].ljust(7, "0"), 2) for k in range(0, len(bits), 7)])

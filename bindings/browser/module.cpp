@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The library as a WebAssembly module: C functions for equiaffine.mjs. A call computes a surface, which stays until the
-// next one; arrays of it are read from the memory of the module.
+// The library as a WebAssembly module: C functions for equiaffine.mjs. The surface that a call computes stays in memory
+// until the next call; JavaScript reads its arrays from there.
 #include "sample.h"
 #include <equiaffine/display/internal/Parabolic_parts.h>
 #include <equiaffine/display/write_HTML.h>
@@ -17,7 +17,7 @@
 
 namespace {
 
-/// Names stand one after the other, each with a zero at its end.
+/// `names` is a sequence of `count` zero-terminated strings.
 equiaffine::Expression_3 expression(const char* text, const char* names, const double* values, int count) {
   std::map<std::string, double> constants;
   for (int i = 0; i < count; ++i) {
@@ -30,8 +30,8 @@ equiaffine::Expression_3 expression(const char* text, const char* names, const d
 
 } // namespace
 
-/// Meshes the level set of a formula in a box, xmin xmax ymin ymax zmin zmax, with that many nodes per axis, and
-/// computes the attributes in a list.
+/// Meshes the level set of a formula in a box, xmin xmax ymin ymax zmin zmax, with `nodes` nodes along each axis, and
+/// computes the attributes of a comma-separated list.
 EXPORTED int eq_mesh(const char* text, const char* names, const double* values, int count, const double* box, int nodes,
                      double level, const char* attributes) {
   return outcome_of([&] {
@@ -44,12 +44,12 @@ EXPORTED int eq_mesh(const char* text, const char* names, const double* values, 
   });
 }
 
-/// Whether a formula can be read.
+/// Fails unless the formula is valid.
 EXPORTED int eq_parse(const char* text, const char* names, const double* values, int count) {
   return outcome_of([&] { expression(text, names, values, count); });
 }
 
-/// Makes what a page shows of the surface.
+/// Prepares the data of a page of the surface.
 EXPORTED int eq_page() {
   return outcome_of([&] {
     namespace internal = equiaffine::internal;
@@ -72,7 +72,7 @@ EXPORTED const char* eq_message() { return failure.message.c_str(); }
 EXPORTED const char* eq_excerpt() { return failure.excerpt.c_str(); }
 EXPORTED const char* eq_unknown_name() { return failure.unknown_name.c_str(); }
 
-/// The numbers of the surface that JavaScript reads: where they are and how many.
+/// Arrays of the surface for JavaScript; eq_data() returns their addresses and eq_size() their lengths.
 enum Array { POSITIONS, TRIANGLES, STATUS, PARTS, POINTS, FIRST_COLUMN };
 EXPORTED const void* eq_data(int array) {
   switch (array) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The surface that the functions of the module share, and what becomes of errors.
+// The surface shared by the functions of the module, and error handling.
 #ifndef EQUIAFFINE_BINDINGS_BROWSER_MODULE_H
 #define EQUIAFFINE_BINDINGS_BROWSER_MODULE_H
 
@@ -25,13 +25,13 @@
 
 using Kernel = CGAL::Simple_cartesian<double>;
 
-/// The surface that the last call found.
+/// The result of the last call.
 struct Surface {
   equiaffine::Isosurface_3<Kernel> mesh;
   equiaffine::Vertex_attributes attributes;
-  std::vector<float> floats;       // as a page wants them: positions from the center, then each column
-  std::vector<std::uint8_t> parts; // Parabolic_part of each vertex, or nothing
-  std::string facts;               // of a page, as JSON
+  std::vector<float> floats;       // for a page: positions relative to the center, then the columns
+  std::vector<std::uint8_t> parts; // Parabolic_part of each vertex, or empty
+  std::string facts;               // for a page, as JSON
 };
 inline Surface surface;
 struct Failure {
@@ -41,7 +41,7 @@ inline Failure failure;
 
 enum Outcome { DONE, MISTAKE, NO_MEMORY, FAILED };
 
-/// Tells JavaScript how far a call is. The benchmark compiles this to native code, where there is no JavaScript.
+/// Reports progress to JavaScript. Does nothing in native code, which the benchmark compiles.
 inline void report([[maybe_unused]] const equiaffine::Progress_observer::Stage& stage) {
 #ifdef __EMSCRIPTEN__
   EM_ASM(
@@ -52,7 +52,7 @@ inline void report([[maybe_unused]] const equiaffine::Progress_observer::Stage& 
 #endif
 }
 
-/// Calls `compute()`; what it throws becomes an outcome and a sentence. JavaScript sees how far it is.
+/// Calls `compute()`, reports its progress, and converts exceptions to an outcome and a message.
 template <class Compute>
 Outcome outcome_of(const Compute& compute) {
   const equiaffine::Progress_observer observer(report, std::chrono::milliseconds(200));
@@ -74,7 +74,7 @@ Outcome outcome_of(const Compute& compute) {
   } catch (const std::invalid_argument& error) {
     return fail(MISTAKE, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(NO_MEMORY, "there is not enough memory here: choose a lower resolution, or use the program");
+    return fail(NO_MEMORY, "not enough memory: choose a lower resolution, or use the program");
   } catch (const std::exception& error) {
     return fail(FAILED, error.what());
   }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The playground: a formula with a slider for each name becomes the surface of the page. A worker computes, coarsely while
-// something moves and finely when it rests; the last picture stays meanwhile. `wasmBytes` and `workerText` are given.
+// The playground: shows the surface of a formula, with a slider for each name in it. A worker computes a coarse surface
+// while the input changes, and a fine one afterwards; the last surface stays visible meanwhile. boot.js passes
+// `wasmBytes` and `workerText`.
 
-const COARSE = 64, REST = 250;  // nodes; milliseconds
+const COARSE = 64, REST = 250;  // nodes of the coarse surface; milliseconds before the fine one
 const MOST_BYTES = 2 ** 29;  // of a file
 const ATTRIBUTES = 'all,quadric_defect,shape_index,curvedness';
-// The formula that is asked for; names: {NAME: [value, least, greatest]}.
+// The requested formula; names: {NAME: [value, minimum, maximum]}.
 const state = {formula: '', names: Object.create(null), box: [-1, 1, -1, 1, -1, 1], nodes: 96, level: 0};
-// Files in the place of the formula: the one that is asked for, and the one whose surface is shown. A volume has a level,
-// and the worker that has read it: {name, bytes, level, worker}.
+// The requested file, and the file whose surface is shown; null for a formula. A file is {name, bytes, level, worker};
+// the last two are the level of a volume and the worker that has read it.
 let askedFile = null, shownFile = null;
 
 function finish({id, page, volume, progress, mistake, unknownNames, milliseconds}) {
@@ -21,7 +22,7 @@ function finish({id, page, volume, progress, mistake, unknownNames, milliseconds
   running = null;
   showWork();
   if (!waiting && (mistake || task?.isFine)) setBusy(false);
-  if (mistake?.isFatal) renewWorker();  // its memory does not shrink
+  if (mistake?.isFatal) renewWorker();  // the memory of a worker does not shrink
   if (task && task.file === askedFile) {
     if (unknownNames) addNames(unknownNames);
     else if (mistake) fail(task, mistake);
@@ -37,7 +38,7 @@ function addNames(names) {
 function fail(task, mistake) {
   say(mistake, task);
   if (task.file && task.file !== shownFile) askFor(shownFile);
-  if (!scene) byId('message').textContent = 'No surface yet';
+  if (!scene) byId('message').textContent = 'No surface yet; correct the formula or choose an example';
 }
 function succeed(task, page, volume, milliseconds) {
   say(null);
@@ -50,14 +51,14 @@ function succeed(task, page, volume, milliseconds) {
   byId('cost').textContent = [size + time, ...volume ? textOfSamples(volume) : []].join('; ');
 }
 function textOfSamples({noise, smoothing, distinctValues}) {
-  const text = [`noise in the samples: ${Number(noise.toPrecision(3))}, smoothed by ${smoothing} voxels`];
+  const text = [`noise in the samples: ${Number(noise.toPrecision(3))}, smoothing: ${smoothing} voxels`];
   if (distinctValues && smoothing === 0)
-    text.push(`the samples have ${distinctValues} distinct values only, and curvatures are those of the steps between them; ` +
-              'smooth the samples');
+    text.push(`the samples have only ${distinctValues} distinct value${distinctValues === 1 ? '' : 's'}, and the ` +
+              'curvatures show the steps between them; increase the smoothing');
   return text;
 }
 
-// Controls of a formula are hidden while a file is asked for.
+// Requests a file, or the formula if `file` is null. The controls of a formula are hidden for a file.
 function askFor(file) {
   askedFile = file;
   byId('formula-part').classList.toggle('has-file', Boolean(file));
@@ -75,7 +76,7 @@ function say(mistake, task) {
   if (mistake) byId('mistake').replaceChildren(element('b', '', mistake.message), mistake.excerpt);
 }
 
-// Shows another surface; what was chosen stays chosen, and the camera where it is.
+// Shows a new surface, and keeps the selection and the camera.
 function show(page, task) {
   const old = facts, {quantity, range: typed} = choice, wasEmpty = !mesh?.size;
   const name = wanted.quantity ?? quantity.name, vectorName = wanted.vectors ?? choice.vectors?.name;
@@ -85,7 +86,7 @@ function show(page, task) {
   document.title = shownFile?.name ?? exampleOf()?.name ?? 'Surface';
   byId('title').textContent = shownFile?.name ?? 'Equi-affine curvatures of a formula';
   byId('message').hidden = mesh.size > 0;
-  byId('message').textContent = 'No point of the surface lies in the box.';
+  byId('message').textContent = 'No point of the surface lies in the box; enlarge or move the box.';
   if (!scene) {
     document.body.classList.remove('is-empty');
     start();
@@ -106,7 +107,7 @@ function show(page, task) {
   if (task.isFine && !shownFile) history.replaceState(null, '', fragment());
 }
 
-// The vertices in an address are those of the fine surface.
+// Picked vertices in the address are indices of the fine surface.
 let isAddressNew = true;
 function pickAsAsked() {
   const words = new URLSearchParams(location.hash.slice(1));
@@ -115,7 +116,8 @@ function pickAsAsked() {
   isAddressNew = false;
 }
 
-// While something moves, a surface has few columns: what it has not is shown with the next fine one.
+// The coarse surface has few columns; the fine one shows a column that is missing. `wanted` has the names of such
+// columns.
 const wanted = {};
 const chooseAtOnce = chooseByName;
 chooseByName = (kind, name) => {
@@ -126,7 +128,7 @@ chooseByName = (kind, name) => {
   requestBoth();
 };
 
-// Colors need the quantity, the sign of the Gaussian curvature, normals, and the vectors if there are some.
+// Coloring needs the quantity, the sign of the Gaussian curvature, normals, and the selected vectors.
 function attributesOfDrag() {
   const names = ['normal', 'gaussian_curvature', 'status'];
   const quantity = wanted.quantity ?? choice.quantity.name, vector = wanted.vectors ?? choice.vectors?.name;
@@ -140,7 +142,7 @@ function taskOf(isFine, isNew) {
           resolution: isFine ? state.nodes : Math.min(COARSE, state.nodes),
           attributes: isFine || !scene ? ATTRIBUTES : attributesOfDrag()};
 }
-// Now coarsely, and finely when nothing has changed for a while.
+// Requests the coarse surface now, and the fine one after REST milliseconds without a change.
 function requestBoth(isNew = false) {
   if (askedFile) askFor(null);
   ++change;
@@ -149,7 +151,7 @@ function requestBoth(isNew = false) {
   restTimer = setTimeout(() => request(taskOf(true, false)), REST);
 }
 
-// A name gets a slider as soon as the formula has it, and keeps its numbers while it comes and goes.
+// A name in the formula gets a slider. It keeps its numbers if it disappears from the formula and returns.
 const namesInFormula = () => new Set(state.formula.match(/[A-Za-z_]\w*/g));
 function fillNames() {
   const used = namesInFormula();
@@ -159,7 +161,7 @@ function rowOfName(name) {
   const row = element('div', 'row'), label = element('label', '', name), entry = state.names[name];
   const input = (type, value, title) =>
       Object.assign(document.createElement('input'), {type, step: 'any', value, title, ariaLabel: `${title} of ${name}`});
-  const least = input('number', entry[1], 'least'), greatest = input('number', entry[2], 'greatest');
+  const least = input('number', entry[1], 'minimum'), greatest = input('number', entry[2], 'maximum');
   const slider = input('range', entry[0], 'value'), typed = input('number', entry[0], 'value');
   slider.id = label.htmlFor = 'name-' + name;
   const bound = () => Object.assign(slider, {min: entry[1], max: entry[2], value: entry[0]});
@@ -207,7 +209,7 @@ function showExample() {
   byId('example').value = example?.name ?? '';
   byId('example-text').textContent = example?.text ?? '';
 }
-// Puts the state into the controls.
+// Updates the controls from the state.
 function showState() {
   byId('formula').value = state.formula;
   byId('box').value = state.box.join(' ');
@@ -224,13 +226,13 @@ function takeExample({formula, names, box}) {
   requestBoth(true);
 }
 
-// The address: f=FORMULA, box=SIX NUMBERS, nodes=N, level=NUMBER, names=NAME:VALUE:LEAST:GREATEST,...
+// The address: f=FORMULA, box=SIX NUMBERS, nodes=N, level=NUMBER, names=NAME:VALUE:MINIMUM:MAXIMUM,...
 moreOfAddress = () => shownFile ? {} : {
   f: encodeURIComponent(state.formula), box: state.box.join(','), nodes: state.nodes, level: state.level,
   names: [...namesInFormula()].filter(name => name in state.names)
       .map(name => [name, ...state.names[name]].join(':')).join(','),
 };
-// Returns whether the address has another formula than is shown.
+// Takes the state from the address; returns whether it differs from what is shown.
 function followFormula() {
   const words = new URLSearchParams(location.hash.slice(1)), formula = words.get('f');
   if (!formula) return false;
@@ -248,7 +250,7 @@ function followFormula() {
   return Boolean(askedFile) || JSON.stringify(state) !== before;
 }
 
-// A file, or another level set of the volume that is asked for.
+// Requests the surface of the file, or another level set of its volume.
 function requestFile(isNew) {
   request({file: askedFile, smoothing: Math.max(0, byId('smoothing').valueAsNumber || 0), attributes: ATTRIBUTES, isFine: true,
            isNew});

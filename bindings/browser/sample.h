@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces of functions, by Marching Cubes.
+// Meshes level sets of functions by Marching Cubes.
 #ifndef EQUIAFFINE_BINDINGS_BROWSER_SAMPLE_H
 #define EQUIAFFINE_BINDINGS_BROWSER_SAMPLE_H
 
@@ -7,7 +7,7 @@
 #include <equiaffine/attributes/attributes.h>
 #include <equiaffine/marching_cubes/marching_cubes.h>
 
-/// The zero set of a function becomes the surface of the module, with the attributes in a list.
+/// Makes the zero set of a function the surface of the module, with the attributes of a comma-separated list.
 template <class Traits>
 void sample(const Traits& traits, const char* attributes, const equiaffine::Marching_cubes_options& options = {}) {
   surface.mesh = equiaffine::marching_cubes(traits, options);

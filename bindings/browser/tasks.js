@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tasks of the playground: a worker computes one, and the last of those that came since waits.
+// The tasks of the playground: a worker computes one while only the latest other one waits.
 
-const LONG = 1500;  // milliseconds
+const LONG = 1500;  // milliseconds, after which a new task ends the running one
 let worker = null, compiled = null, running = null, waiting = null, count = 0, change = 0, restTimer = 0, clock = 0;
 
 async function startWorker() {
@@ -15,8 +15,8 @@ async function startWorker() {
   URL.revokeObjectURL(address);
 }
 
-// A task is ended for the next one if it takes long, and at
-// once if it computes a file that nobody asks for any more. The fine surface waits for the coarse one of the same change.
+// A new task ends a running one that takes long, and immediately one that computes a file no longer requested. The fine
+// surface waits for the coarse one of the same change.
 function request(task) {
   waiting = task;
   setBusy(true);
@@ -34,7 +34,7 @@ function runNext() {
   Object.assign(running, {id: ++count, begin: performance.now(), progress: ''});
   worker.postMessage(messageOf(running));
 }
-// Returns the message to the worker, which has the file only if the worker has not read it.
+// Returns the message to the worker. It includes the bytes of the file unless the worker has already read them.
 function messageOf({id, file, kind, formula, constants, box, resolution, level, smoothing, attributes}) {
   if (!file) return {id, kind, formula, constants, box, resolution, level, attributes};
   const isThere = file.worker === worker;
@@ -51,7 +51,7 @@ function restart() {
   runNext();
   showWork();
 }
-// Ends what runs. What waits comes next, or what is shown stays.
+// Ends the running task, and starts the waiting one if any.
 function stopTask() {
   if (!waiting) {
     clearTimeout(restTimer);

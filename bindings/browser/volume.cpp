@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Level sets of a volume, which stays with its spline until the next volume comes.
+// Level sets of a volume. The volume and its spline stay in memory until the next volume.
 #include "sample.h"
 #include <equiaffine/attributes/Curvature_error_3.h>
 #include <equiaffine/function/Level_set_traits_3.h>
@@ -20,14 +20,14 @@ struct Fitted_volume {
   double smoothing;
   equiaffine::Sampled_function_traits_3<Kernel> spline;
   equiaffine::Curvature_error_3<Kernel> errors;
-  double noise;                               ///< of the samples beside the last level set
-  std::optional<std::size_t> distinct_values; ///< of the samples, if they are few
+  double noise;                               ///< of the samples near the last level set
+  std::optional<std::size_t> distinct_values; ///< number of distinct samples if small
 };
 
 std::vector<double> values;
 std::optional<Fitted_volume> fitted;
 
-/// Adds the errors of affine curvatures that the surface has.
+/// Adds the errors of those affine curvatures that are columns of the surface.
 void add_errors() {
   auto& columns = surface.attributes.columns;
   const auto has = [&](const char* name) { return equiaffine::find_column(surface.attributes, name) != nullptr; };
@@ -45,7 +45,7 @@ void add_errors() {
 
 } // namespace
 
-/// Makes place for the values of a volume, i fastest.
+/// Allocates the values of a volume; i runs fastest.
 EXPORTED double* eq_values(int nodes) {
   fitted.reset();
   try {
@@ -56,8 +56,8 @@ EXPORTED double* eq_values(int nodes) {
   return values.data();
 }
 
-/// Takes the values as those of a lattice of nx, ny, nz nodes; `placing` is its origin and its three steps. Smoothing
-/// is a scale in steps, 0 for none.
+/// Uses the values as a volume of nx, ny, nz nodes; `placing` contains its origin and its three steps. `smoothing` is a
+/// scale in steps, 0 for none.
 EXPORTED int eq_volume(int nx, int ny, int nz, const double* placing, double smoothing) {
   return outcome_of([&] {
     const auto vector = [&](int k) { return Kernel::Vector_3(placing[3 * k], placing[3 * k + 1], placing[3 * k + 2]); };
@@ -72,11 +72,11 @@ EXPORTED int eq_volume(int nx, int ny, int nz, const double* placing, double smo
   });
 }
 
-/// Meshes a level set of the volume on its own lattice. Affine curvatures have estimates of their errors.
+/// Meshes a level set of the volume on its own lattice, with estimates of the errors of affine curvatures.
 EXPORTED int eq_level_set(double level, const char* attributes) {
   return outcome_of([&] {
     surface = {};
-    if (!fitted) throw equiaffine::Input_error("there is no volume yet");
+    if (!fitted) throw equiaffine::Input_error("there is no volume; call takeVolume first");
     sample(equiaffine::Level_set_traits_3(fitted->spline, level), attributes);
     fitted->noise = equiaffine::estimate_noise<CGAL::Sequential_tag>(fitted->samples, level).deviation;
     fitted->errors = fitted->errors.with_noise(fitted->smoothing, fitted->noise);
@@ -84,7 +84,7 @@ EXPORTED int eq_level_set(double level, const char* attributes) {
   });
 }
 
-/// The standard deviation of the noise of the samples beside the last level set.
+/// The standard deviation of the noise of the samples near the last level set.
 EXPORTED double eq_noise() { return fitted ? fitted->noise : std::numeric_limits<double>::quiet_NaN(); }
-/// The number of distinct values of the samples if it is 256 or less, else 0.
+/// The number of distinct sample values if at most 256, otherwise 0.
 EXPORTED int eq_distinct_values() { return fitted ? int(fitted->distinct_values.value_or(0)) : 0; }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The worker of the playground, behind module.mjs and equiaffine.mjs in one text: it computes while the page is used.
+// The worker of the playground. make_page.py puts module.mjs and equiaffine.mjs before it.
 
 let use, current = null;
 const library = new Promise(resolve => { use = resolve; });
 const report = (stage, done, total) => self.postMessage({id: current, progress: {stage, done, total}});
-const taken = {volume: null, smoothing: 0};  // the volume of the module, and the scale of its smoothing
+const taken = {volume: null, smoothing: 0};  // the volume in the module, and its smoothing
 
-// Returns the default level of a volume: 0, or the middle of its numbers if all are on one side of it.
+// Returns the default level of a volume: 0 if it is between the minimum and the maximum, otherwise their mean.
 function levelIn(values) {
   let least = Infinity, greatest = -Infinity;
   for (const value of values) {
@@ -14,11 +14,11 @@ function levelIn(values) {
     if (value < least) least = value;
     if (value > greatest) greatest = value;
   }
-  if (least > greatest) throw new Mistake('the volume has no finite number', '', '');
+  if (least > greatest) throw new Mistake('the volume has no finite values; use another one', '', '');
   return least < 0 && greatest > 0 ? 0 : (least + greatest) / 2;
 }
 
-// The names in a formula that have no value yet.
+// Returns the names in a formula that have no value yet.
 function unknownNames(ea, {formula, constants}) {
   const names = [], all = {...constants};
   for (let error = null; names.length < 1000; names.push(error.unknownName), all[error.unknownName] = 1) {
@@ -33,13 +33,13 @@ function unknownNames(ea, {formula, constants}) {
   return names;
 }
 
-// Makes a surface, and returns what there is to say of a volume.
+// Computes a surface; returns level, smoothing, noise and distinct values of a volume.
 async function compute(ea, {kind, ...task}) {
   if (kind === 'sample') return ea.sample(task.formula, task);
   if (kind === 'file' && !isVolume(task.name)) {
     if (!/\.(ply|off|obj|stl|xyz|csv)$/i.test(task.name))
-      throw new Mistake(`cannot read '${task.name}': its extension is not known; use one of .ply .off .obj .stl .xyz .csv for a mesh ` +
-                        'or points, .nrrd .mha .nii .nii.gz for a volume', '', '');
+      throw new Mistake(`cannot read '${task.name}': unknown extension; use .ply .off .obj .stl .xyz .csv for a mesh or points, ` +
+                        '.nrrd .mha .nii .nii.gz for a volume', '', '');
     return ea.fit(task.name, task.bytes, {scale: null, ...task});
   }
   if (kind === 'file') taken.volume = await readVolume(task.name, task.bytes);

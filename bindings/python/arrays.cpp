@@ -17,7 +17,7 @@ namespace equiaffine::python {
 
 namespace {
 
-/// The array whose numbers are those of a vector of another type with the same memory, which it owns.
+/// An array that takes over a vector and reinterprets its memory as elements of type T.
 template <class T, class Element>
 py::array_t<T> shared_array(std::vector<Element>&& values, std::vector<py::ssize_t> shape) {
   auto* const owner = new std::vector<Element>(std::move(values));
@@ -35,7 +35,7 @@ Lattice_3<Kernel> lattice_of(const py::array& samples, const py::array_t<double>
       Kernel::Point_3(o(0), o(1), o(2)), {step(0), step(1), step(2)});
 }
 
-/// Calls `use(number)` with a number of the type that numpy has that letter for.
+/// Calls `use` with a zero of the type that has this numpy type character.
 template <class Use>
 auto with_type(char type, const Use& use) {
   switch (type) {
@@ -52,7 +52,7 @@ auto with_type(char type, const Use& use) {
   case 'Q': return use(0ULL);
   case 'f': return use(0.F);
   case 'd': return use(0.);
-  default: throw std::invalid_argument("the samples have another type than integers, float32 and float64");
+  default: throw std::invalid_argument("samples: give integers, float32 or float64");
   }
 }
 
@@ -77,14 +77,15 @@ Annotated_mesh_3<Kernel> mesh_of(const Points_array& points, const Faces_array& 
   result.mesh.triangles.resize(std::size_t(faces.shape(0)));
   for (std::size_t k = 0; k < 3 * result.mesh.triangles.size(); ++k) {
     if (vertices[k] < 0 || vertices[k] >= size)
-      throw std::invalid_argument("face " + std::to_string(k / 3) + " has the vertex " + std::to_string(vertices[k]) +
-                                  ", and there are " + std::to_string(size));
+      throw std::invalid_argument("F: face " + std::to_string(k / 3) + " refers to vertex " +
+                                  std::to_string(vertices[k]) + ", but the number of vertices is " +
+                                  std::to_string(size) + "; count vertices from 0");
     result.mesh.triangles[k / 3][k % 3] = std::uint32_t(vertices[k]);
   }
   const auto check_shape = [&](const std::string& name, const py::array& values) {
     if (values.ndim() != 1 || values.size() != size)
-      throw std::invalid_argument("the " + name + " has " + std::to_string(values.size()) + " numbers for " +
-                                  std::to_string(size) + " vertices");
+      throw std::invalid_argument(name + ": give one number for each of the " + std::to_string(size) +
+                                  " vertices, not " + std::to_string(values.size()));
   };
   for (const auto& [name, given] : columns) {
     const auto values = py::cast<Points_array>(given);
@@ -99,8 +100,8 @@ Annotated_mesh_3<Kernel> mesh_of(const Points_array& points, const Faces_array& 
     for (py::ssize_t i = 0; i < size; ++i) {
       const std::uint8_t number = status->data()[i];
       if (number >= number_of_point_statuses)
-        throw std::invalid_argument("vertex " + std::to_string(i) + " has the status " + std::to_string(number) +
-                                    ", which does not exist");
+        throw std::invalid_argument("status: vertex " + std::to_string(i) + " has the invalid value " +
+                                    std::to_string(number) + "; use values of Status");
       statuses.push_back(Point_status(number));
     }
   }
@@ -138,7 +139,7 @@ py::dict arrays_of(Indexed_triangle_mesh_3<Kernel>&& mesh, Vertex_attributes&& a
   static_assert(sizeof(Kernel::Point_3) == 3 * sizeof(double));
   result["V"] = shared_array<double>(std::move(mesh.points), {vertices, 3});
 #ifdef __GLIBC__
-  ::malloc_trim(0); // what the computation has freed goes back to the system before triangles are copied
+  ::malloc_trim(0); // return freed memory to the system before the triangles are copied
 #endif
   std::vector<std::int64_t> indices;
   resize_with_large_pages(indices, 3 * mesh.triangles.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The module equiaffine._core: the commands of the program on arrays. The program's table of options reads keyword
-// arguments, so that both refuse the same and compute the same.
+// The module equiaffine._core: the commands of the program on arrays. Keyword arguments are parsed by the program's
+// table of options, so that both accept the same values and compute the same results.
 #include "arrays.h"
 #include "attributes/estimates.h"
 #include "cli/parse_options.h"
@@ -34,16 +34,16 @@ namespace {
 
 using Mesh = Annotated_mesh_3<Kernel>;
 
-/// A fit that is used again and again, with the data it was made of.
+/// A fit that can be evaluated repeatedly, with its data.
 struct Fit {
   Fit_traits traits;
   Indexed_triangle_mesh_3<Kernel> data;
 };
 
-/// A source is made of one of these: a formula, samples, or a fit.
+/// Input of a source: a formula, samples, or a fit.
 using Given = std::variant<std::string, Volume_array, std::shared_ptr<const Fit>>;
 
-/// Reads the options of a command, and calls `compute(request, progress)` as observed() does.
+/// Parses the options of a command, and calls `compute(request, progress)` by observed().
 template <class Compute>
 auto run(Command command, const py::dict& keywords, const py::object& progress_function, const Compute& compute) {
   Request request = read_options(command_line_of(command, keywords));
@@ -124,13 +124,13 @@ std::shared_ptr<Fit> fit(const py::dict& keywords, Mesh data, const py::object& 
     check_vertices(data.mesh.points, options.input);
     const auto traits = blend_vertices(data, options.source.fit);
     if (traits.bbox() == CGAL::Bbox_3())
-      throw Input_error("no point has enough others around it for a polynomial; give more points or a larger scale");
+      throw Input_error("no point has enough neighbors to fit a polynomial; give more points or a larger scale");
     warn_of_opposed_normals(data, progress);
     return [fit = std::make_shared<Fit>(Fit{traits, std::move(data.mesh)})] { return fit; };
   });
 }
 
-/// Gives a source of a register or symmetries command its data, if they are in memory.
+/// Sets the data of a source of a register or symmetries command if they are in memory.
 void give(Source_options& source, const std::optional<Mesh>& data) {
   if (data) source.data = [&data] { return *data; };
 }

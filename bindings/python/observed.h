@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calls of the library from Python: without the lock of the interpreter, with progress, signals and warnings.
+// Calls the library from Python without the GIL, with progress, signals and warnings.
 #ifndef EQUIAFFINE_BINDINGS_PYTHON_OBSERVED_H
 #define EQUIAFFINE_BINDINGS_PYTHON_OBSERVED_H
 
@@ -24,16 +24,16 @@ namespace equiaffine::python {
 
 namespace py = pybind11;
 
-/// Whether the interpreter has begun to end. It ends threads that ask for its lock then, through functions that do not
-/// expect it.
+/// Whether the interpreter is shutting down. It then terminates threads that acquire the GIL, and unwinds their stacks
+/// through functions that are not prepared for it.
 inline std::atomic<bool> is_interpreter_ending = false;
 
-/// A daemon thread has nothing to do any more, and the process ends without it.
+/// Blocks the calling thread, a daemon thread, until the process exits if the interpreter is shutting down.
 inline void wait_for_the_end() {
   while (is_interpreter_ending) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
-/// Gives the lock of the interpreter to other threads.
+/// Releases the GIL while it exists.
 class Without_lock {
 public:
   Without_lock() : state_(PyEval_SaveThread()) {}
@@ -48,7 +48,7 @@ private:
   PyThreadState* const state_;
 };
 
-/// Returns what `compute` returns, for which no more threads than these work, whatever other calls are allowed.
+/// Returns `compute()`, computed with at most this number of threads. Concurrent calls can have other limits.
 template <class Compute>
 auto with_threads([[maybe_unused]] std::optional<std::size_t> threads, const Compute& compute) {
 #ifdef CGAL_LINKED_WITH_TBB
@@ -58,14 +58,14 @@ auto with_threads([[maybe_unused]] std::optional<std::size_t> threads, const Com
   return compute();
 }
 
-/// Calls `compute(progress)` without the lock, and what it returns with it. A signal, as of Ctrl-C, ends the
-/// computation, as does an exception of the `progress` function, which is called with the number of a stage, the steps
-/// that are done, and all of them. Warnings of the program become those of Python, where the function of the module was
+/// Calls `compute(progress)` without the GIL, then the function that it returns with the GIL. Calls
+/// `progress_function(stage, done, total)`. A signal such as Ctrl-C, or an exception of `progress_function`, ends the
+/// computation. Warnings of the program become Python warnings at the place where the function of the module was
 /// called.
 template <class Compute>
 auto observed(const py::object& progress_function, std::optional<std::size_t> threads, const Compute& compute) {
   if (!progress_function.is_none() && !PyCallable_Check(progress_function.ptr()))
-    throw Input_error("progress: give a function of three numbers, and not " +
+    throw Input_error("progress: give a function of three numbers, not " +
                       std::string(py::repr(progress_function)));
   std::ostringstream lines;
   const auto finish = [&] {

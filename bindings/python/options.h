@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keyword arguments of Python as words for the program's table of options, which checks them.
+// Converts keyword arguments of Python to words for the program's table of options, which checks them.
 #ifndef EQUIAFFINE_BINDINGS_PYTHON_OPTIONS_H
 #define EQUIAFFINE_BINDINGS_PYTHON_OPTIONS_H
 
@@ -23,10 +23,10 @@ inline bool is_text(const py::handle& value) {
   return py::isinstance<py::str>(value) || py::isinstance<py::bytes>(value);
 }
 
-/// A number as the shortest text that means the same; or a text or bytes, unless they are those of a number.
-/// Nothing for all else.
+/// A number as the shortest text that represents it exactly, or a string or bytes that do not represent a number.
+/// Nothing for any other value.
 inline std::optional<std::string> word_of(const py::handle& value) {
-  py::detail::make_caster<std::string> text; // of UTF-8, or bytes
+  py::detail::make_caster<std::string> text; // UTF-8, or bytes
   py::detail::make_caster<bool> flag;
   if (is_text(value)) {
     if (text.load(value, false) && !is_number(text)) return std::string(text);
@@ -42,8 +42,8 @@ inline std::optional<std::string> word_of(const py::handle& value) {
   return std::nullopt;
 }
 
-/// Adds the words of a number or a text, of at most so many items of a sequence, or NAME=VALUE for all items of a
-/// dictionary. Returns false if something is neither a number nor a text, or there are more items.
+/// Adds the word of a number or a string, the words of a sequence of at most `most` items, or NAME=VALUE for each item
+/// of a dictionary. Returns false if a value is neither a number nor a string, or if there are more items.
 inline bool add_words(const py::handle& value, std::size_t most, Words& words) {
   if (py::hasattr(value, "items")) {
     for (const py::handle& item : value.attr("items")()) {
@@ -62,25 +62,25 @@ inline bool add_words(const py::handle& value, std::size_t most, Words& words) {
   if (most > 1 && !is_text(value)) {
     if (PyObject* const items = PyObject_GetIter(value.ptr()))
       return std::all_of(py::reinterpret_steal<py::iterator>(items), py::iterator::sentinel(), add);
-    PyErr_Clear(); // an array without dimensions is a number
+    PyErr_Clear(); // an array with no dimensions is a number
   }
   return add(value);
 }
 
-/// Describes the values of an option by its row in the table.
+/// Describes the valid values of an option.
 inline std::string expected_values(const Option_row& row) {
   if (row.words.least == 0) return "True or False";
   if (row.words.most == unlimited) return "a dictionary of names and numbers";
   if (row.words.least > 1) return std::to_string(row.words.least) + " numbers";
   if (row.words.most > 1) return "a whole number, or three";
-  if (row.type == "NAME") return "a text";
+  if (row.type == "NAME") return "a string";
   if (row.type.find('|') == std::string::npos) return row.type == "N" ? "a whole number" : "a number";
   const std::string words = std::regex_replace(row.type, std::regex("^[A-Z](?=\\|)"), "a number");
   return std::regex_replace(words, std::regex("\\|"), " or ");
 }
 
-/// Puts an option of the command on the line. One that is True becomes the flag of its name, and one that is False the
-/// flag "no_" + name. Throws `Input_error` for a value of a wrong type, or a wrong number of values.
+/// Adds an option to the command line. True becomes the flag `name`, and False the flag "no_" + name. Throws
+/// `Input_error` if a value has the wrong type, or if the number of values is wrong.
 inline void add_option(const std::string& name, const py::handle& value, Command_line& line) {
   const std::vector<const Option_row*> rows = options_of(line.command);
   const auto found = std::find_if(rows.begin(), rows.end(), [&](const Option_row* each) {
@@ -106,11 +106,11 @@ inline void add_option(const std::string& name, const py::handle& value, Command
   if (!is_flag && !takes_dictionary)
     is_valid = is_valid && words.size() >= std::size_t(least) && words.size() <= std::size_t(most);
   if (!is_valid)
-    throw Input_error(name + ": give " + expected_values(row) + ", and not " + std::string(py::repr(value)));
+    throw Input_error(name + ": give " + expected_values(row) + ", not " + std::string(py::repr(value)));
   if (!words.empty()) line.options[row.name()] = words;
 }
 
-/// The line of a command that returns its results, with options by their names. Sources have names, too.
+/// The command line of a command that returns its results and writes no files. Options and sources are given by name.
 inline Command_line command_line_of(Command command, const py::dict& options) {
   Command_line line{.command = command, .options = {}, .information = {}, .writes_files = false};
   for (const auto& [name, value] : options) add_option(name.cast<std::string>(), value, line);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A pipeline: the level set 157 of VTK's wavelet with its curvatures, as a file: example.py FILE.vtp"""
+"""Writes the level set 157 of VTK's wavelet with its curvatures: example.py FILE.vtp"""
 import sys
 
 import vtk

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # %% [markdown]
-# A formula with parameters: where the affine Gaussian curvature of a surface changes its sign.
-# Run it as a program, or cell by cell as a notebook. It leaves pictures in results/.
+# A formula with parameters: how the affine Gaussian curvature of a surface changes with a constant.
+# Run it as a program, or cell by cell as a notebook. It writes pictures to results/.
 
 # %%
 import pathlib
@@ -23,7 +23,7 @@ for c in (0.5, 1, 2.5):
           f"median H {np.nanmedian(H):.3g}, parabolic {100 * parabolic:.1f} %")
 
 # %%
-# Affine maps of determinant 1 do not change K: the same surface, sheared, has the same numbers at the images.
+# Affine maps of determinant 1 do not change K: the sheared surface has the same K at the images of the vertices.
 shear = np.array([[1, 0.7, 0], [0, 1, 0.3], [0, 0, 1]])
 surface = ea.mesh(FORMULA, constants={"c": 1}, box=1.2, resolution=48)
 names = {name: f"({' + '.join(f'({m})*{v}' for m, v in zip(row, 'xyz'))})"
@@ -32,8 +32,8 @@ sheared = "".join(names.get(character, character) for character in FORMULA)
 there = ea.evaluate(sheared, surface.V @ shear.T, constants={"c": 1})
 K = surface["affine_gaussian_curvature"]
 known = np.abs(K) < 1e3
-print(f"sheared: K differs by {np.nanmax(np.abs(there['affine_gaussian_curvature'] - K)[known]):.1e} at most, "
-      f"where it is below 1000")
+print(f"sheared: K differs by at most {np.nanmax(np.abs(there['affine_gaussian_curvature'] - K)[known]):.1e} "
+      f"where |K| < 1000")
 
 # %%
 ea.view(surface, results / "formula.png", color="affine_gaussian_curvature", size=(800, 640))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # %% [markdown]
-# A piece of a surface that was sheared is found in the whole, without a guess to begin with.
-# A picture of both is left in results/.
+# Registers a sheared piece of a surface with the whole surface, without an initial guess.
+# Writes a picture of both to results/.
 
 # %%
 import pathlib
@@ -26,7 +26,7 @@ piece = ea.Surface(whole.V[is_in_piece] @ shear.T + [3, 0, 0], F)
 found = ea.register(piece, whole)
 print(found.summary)
 error = np.abs(found.apply(piece.V) - whole.V[is_in_piece]).max()
-print(f"the piece of {len(piece.V)} vertices is put back to within {error:.1e}")
+print(f"the {len(piece.V)} vertices of the piece are mapped back with an error of at most {error:.1e}")
 
 # %%
 both = ea.Surface(np.concatenate([whole.V, piece.V]), np.concatenate([whole.F, piece.F + len(whole.V)]),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # %% [markdown]
-# A scan with errors: which curvatures a mesh with noise has, at which scale, and how far to trust them.
-# `scan.py [MESH]` takes a mesh of yours; without one the scan is an ellipsoid with noise. Pictures are left in results/.
+# Estimates the curvatures of a noisy mesh, with their scale and their errors.
+# `scan.py [MESH]` reads your mesh; by default the scan is an ellipsoid with noise. Writes its results to results/.
 
 # %%
 import pathlib
@@ -23,19 +23,19 @@ else:
 
 # %%
 found = ea.curvatures(scan)
-scale = "the surface's own" if found.scale is None else f"at the scale {found.scale:.3g}"
-print(f"{len(scan.V)} vertices, curvatures are {scale}")
+scale = "of the surface itself" if found.scale is None else f"at the scale {found.scale:.3g}"
+print(f"{len(scan.V)} vertices, curvatures {scale}")
 for name in ("gaussian_curvature", "mean_curvature", "affine_gaussian_curvature", "affine_mean_curvature"):
     number, error = found[name], found[name + "_error"]
     known = np.mean(error < 0.2 * np.abs(number))
     print(f"{name}: median {np.nanmedian(number):.3g}, known to 20 % at {100 * known:.0f} % of the vertices")
 
 # %%
-# An ellipsoid x^2/a^2 + y^2/b^2 + z^2/c^2 = 1 has the same K everywhere, 1 / (a b c).
+# On the ellipsoid x^2/a^2 + y^2/b^2 + z^2/c^2 = 1, K is constant, 1 / (a b c).
 if len(sys.argv) == 1:
     K = 6 ** 0.5
     error = np.abs(found["affine_gaussian_curvature"] - K)
-    print(f"K is {K:.4g}: the estimate of the error covers it at "
+    print(f"K is within the estimated error of its true value {K:.4g} at "
           f"{100 * np.mean(error <= found['affine_gaussian_curvature_error']):.0f} % of the vertices")
 
 # %%

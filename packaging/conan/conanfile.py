@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Conan 2 recipe for the library, not tried here:
+"""A Conan 2 recipe for the library (not tested):
 conan create packaging/conan -s compiler.cppstd=20 --build=missing"""
 import os
 
@@ -16,7 +16,7 @@ class Equiaffine(ConanFile):
     description = "Euclidean and equi-affine curvatures of implicit surfaces, in the style of CGAL"
     package_type = "static-library"
     settings = "os", "arch", "compiler", "build_type"
-    default_options = {"onetbb/*:tbbmalloc": True}  # CGAL's target for TBB has it
+    default_options = {"onetbb/*:tbbmalloc": True}  # required by CGAL's target for TBB
 
     def export_sources(self):
         root = os.path.join(self.recipe_folder, "..", "..")
@@ -27,7 +27,7 @@ class Equiaffine(ConanFile):
         for package in ("cgal/[>=5.5 <7]", "onetbb/[>=2021.8]"):
             self.requires(package, transitive_headers=True)
         for package in ("eigen/[>=3.4 <6]", "boost/[>=1.74]"):
-            self.requires(package, transitive_headers=True, force=True)  # the recipe of cgal names a single version
+            self.requires(package, transitive_headers=True, force=True)  # the recipe of cgal requires a single version
 
     def validate(self):
         check_min_cppstd(self, 20)

@@ -15,8 +15,8 @@ namespace equiaffine {
 
 namespace {
 
-/// The way back from points to those of the source before its transformation, and the factor of K on the way there:
-/// under an affine map of determinant D the affine curvatures K and H are divided by |D| and its root.
+/// The inverse of the source's transformation, and its factor of K: an affine map of determinant D divides the affine
+/// curvatures K and H by |D| and by its square root.
 struct Preimage {
   CGAL::Aff_transformation_3<Kernel> map = CGAL::Aff_transformation_3<Kernel>(CGAL::IDENTITY);
   double factor = 1;
@@ -29,8 +29,8 @@ struct Preimage {
   }
 };
 
-/// Calls at(local, p) for the preimage p of every point: `local` is the estimator, which may be restricted to cells
-/// around p.
+/// Calls at(local, p) for the preimage p of each point; `local` is the estimator, possibly restricted to cells around
+/// p.
 template <class Estimator, class At>
 auto at_points(const Estimator& estimator, std::span<const Kernel::Point_3> images, const Preimage& preimage,
                Progress& progress, const At& at) {
@@ -50,8 +50,8 @@ auto at_points(const Estimator& estimator, std::span<const Kernel::Point_3> imag
   return results;
 }
 
-/// Turns estimates at points of the source into those of its image. Angles and Euclidean curvatures become others than
-/// those that were estimated, so that nothing is known of them.
+/// Turns estimates at points of the source into those of its image. Errors of angles and Euclidean curvatures become
+/// infinite, since their transformed values have no estimate.
 void transform(Estimates& estimates, double factor) {
   const auto& attributes = estimate_attributes();
   for (auto& column : estimates.columns) {

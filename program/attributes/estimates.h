@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The estimated errors of attributes at points of a source, and the columns that hold them.
+// Estimated errors of attributes at points of a source, and their columns.
 #ifndef EQUIAFFINE_PROGRAM_ATTRIBUTES_ESTIMATES_H
 #define EQUIAFFINE_PROGRAM_ATTRIBUTES_ESTIMATES_H
 
@@ -27,23 +27,22 @@ inline std::vector<std::string> error_attributes() {
 struct Source;
 struct Source_options;
 
-/// What is known of the errors of attributes at points.
+/// Estimated errors of attributes at points.
 struct Estimates {
   std::vector<Vertex_attributes::Column> columns;
-  std::optional<Fit_statistics> fit; ///< is set for a fit
+  std::optional<Fit_statistics> fit; ///< for a fit
 };
 
-/// The estimates at points of level sets of the source, if it has them; to make them is a stage of its own.
+/// The estimates at points of level sets of the source, if it has them. Begins a stage of `progress`.
 Estimates estimates_at(const Source& source, const Source_options& options, std::span<const Kernel::Point_3> points,
                        Progress& progress);
 
 Estimates estimates_of(std::span<const Fitted_structure_3<double>> structures);
 
-/// Adds those columns of the estimates that `names` has and `attributes` has not.
+/// Adds the columns of the estimates in `names` that `attributes` lacks.
 void add_estimates(const Estimates& estimates, std::span<const std::string> names, Vertex_attributes& attributes);
 
-/// Adds the columns with errors that are missing, if the estimates have them: pages and pictures show what can be
-/// trusted, even if the mesh does not get the estimates.
+/// Adds missing columns of errors: pages and pictures show uncertainty even if the output does not get the estimates.
 void add_errors(const Estimates& estimates, Vertex_attributes& attributes);
 
 } // namespace equiaffine

@@ -42,7 +42,7 @@ void Option_reader::need(const std::string& option, const std::string& advice) c
 
 namespace {
 
-/// Makes names of the same file equal, whatever links and dots lead there.
+/// Resolves links and dots, so that paths of the same file are equal.
 std::filesystem::path canonical_path(const std::string& path) {
   if (path == "-") return path;
   std::error_code error;
@@ -51,7 +51,7 @@ std::filesystem::path canonical_path(const std::string& path) {
   return error ? absolute.lexically_normal() : canonical;
 }
 
-/// Whether two paths lead to the same file, by symbolic or hard links, too.
+/// Whether two paths lead to the same file, also by symbolic or hard links.
 bool are_same_file(const std::string& path, const std::string& other) {
   std::error_code error;
   return canonical_path(path) == canonical_path(other) || std::filesystem::equivalent(path, other, error);
@@ -76,10 +76,10 @@ void check_outputs(const std::vector<std::string>& inputs, const std::vector<std
     if (!path) continue;
     if (!paths.insert(canonical_path(*path)).second)
       throw Input_error("two outputs go to " + (path == "-" ? "standard output" : "'" + *path + "'") +
-                        "; give each its own name");
+                        "; give them different names");
     for (const std::string& input : inputs)
       if (path != "-" && input != "-" && are_same_file(*path, input))
-        throw Input_error("the output '" + *path + "' would replace the file that is read; give it another name");
+        throw Input_error("the output '" + *path + "' would overwrite an input; give it another name");
   }
 }
 
@@ -87,14 +87,14 @@ void need_output(const Option_reader& reader) { reader.need("output", "name the 
 
 void refuse_picture_options(const Option_reader& reader) {
   if (!reader.has("png"))
-    reader.refuse({"size", "arrows"}, "it is for a picture",
-                  by_front_end("add --png", "give the path of one, .png,") + " or leave it out");
+    reader.refuse({"size", "arrows"}, "it applies only to a picture",
+                  by_front_end("add --png", "give a path with .png") + " or leave it out");
 }
 
 void refuse_page_options(const Option_reader& reader) {
   if (!reader.has("html") && !reader.has("png"))
-    reader.refuse({"color", "up", "colors", "range", "range_of"},
-                  "it is for the page of --html and the picture of --png", "add one of them or leave it out");
+    reader.refuse({"color", "up", "colors", "range", "range_of"}, "it applies only to --html and --png",
+                  "add one of them or leave it out");
 }
 
 namespace {
@@ -102,17 +102,16 @@ namespace {
 [[noreturn]] void fail_without_source(Command command) {
   const std::string options =
       command == SAMPLE ? "--function, --distance-to or --fit" : "--function, --volume, --distance-to or --fit";
-  throw Input_error("no source is given" + (command == REGISTER
-                                                ? " on one side of the word 'to'; name a file there or use " + options
-                                            : command == SYMMETRIES ? "; name a file or use " + options
-                                                                    : "; use " + options));
+  throw Input_error("the source is missing" +
+                    (command == REGISTER     ? " on one side of the word 'to'; name a file there or use " + options
+                     : command == SYMMETRIES ? "; name a file or use " + options
+                                             : "; use " + options));
 }
 
-/// Throws for an option of fits with a source that is none.
+/// Throws for options of fits if the source is not a fit.
 void refuse_fit_options(const Option_reader& reader) {
   const auto refuse = [&](const std::string& reason, const std::string& advice) {
-    reader.refuse({"scale", "noise", "degree", "feature_angle"}, "it is for the polynomials of a fit, and " + reason,
-                  advice);
+    reader.refuse({"scale", "noise", "degree", "feature_angle"}, "it applies only to fits; " + reason, advice);
   };
   const Source_options& source = reader.request().source;
   switch (source.kind) {
@@ -121,7 +120,7 @@ void refuse_fit_options(const Option_reader& reader) {
     return refuse("a volume gets a spline",
                   "leave it out, and smooth the samples with " + option_text("smoothing", "auto"));
   case Source_kind::DISTANCE:
-    return refuse("a distance gets a spline", "use --fit " + source.text + " in place of --distance-to");
+    return refuse("a distance gets a spline", "use --fit " + source.text + " instead of --distance-to");
   case Source_kind::FIT: return;
   }
 }
@@ -142,62 +141,61 @@ void read_kind(Option_reader& reader) {
   source.derivatives = has_derivatives ? Derivatives::JETS : Derivatives::SPLINE;
 }
 
-/// Checks that the source has what was read of it, and that a formula has a box where it is sampled.
+/// Checks that the options suit the kind of the source, and that a formula that is sampled has a box.
 void check_kind(const Option_reader& reader) {
   const Source_options& source = reader.request().source;
   if (source.kind != Source_kind::FUNCTION)
     reader.refuse({"constants"}, "only a formula has constants", "leave it out");
-  if (source.kind == Source_kind::VOLUME) reader.refuse({"box", "resolution"}, "a volume has its own", "leave it out");
+  if (source.kind == Source_kind::VOLUME)
+    reader.refuse({"box", "resolution"}, "a volume has its own grid", "leave it out");
   const bool is_sampled_only = source.kind == Source_kind::VOLUME || source.kind == Source_kind::DISTANCE;
   if (source.kind == Source_kind::FIT && source.derivatives == Derivatives::SPLINE)
-    fail_option("derivatives", "a fit is known near its points only, which is too little for a spline",
-                "leave it out: a fit has derivatives of its own");
+    fail_option("derivatives", "a fit is defined only near its points, which is too little for a spline",
+                "leave it out to use the fit's own derivatives");
   if (is_sampled_only && source.derivatives == Derivatives::JETS)
-    fail_option("derivatives", "jets need a formula, and this source is known by samples only",
+    fail_option("derivatives", "jets need a formula or a fit, and this source has only samples",
                 "leave it out or use spline");
   const bool is_sampled = reader.command() != EVALUATE || source.derivatives == Derivatives::SPLINE;
   if (source.kind == Source_kind::FUNCTION && is_sampled)
-    reader.need("box",
-                "say where the formula is to be sampled, such as " + by_front_end("--box -2 2 -2 2 -2 2", "box=2"));
+    reader.need("box", "give the region where the formula is sampled, such as " +
+                           by_front_end("--box -2 2 -2 2 -2 2", "box=2"));
 }
 
 void read_spline(Option_reader& reader) {
   if (reader.request().source.derivatives == Derivatives::JETS)
     reader.refuse({"spline_degree", "spline_scheme", "smoothing"},
-                  "it is for splines, and the derivatives are those of the formula or the fit",
+                  "it applies only to splines, and the derivatives are those of the formula or the fit",
                   reader.request().source.kind == Source_kind::FIT
                       ? "leave it out"
                       : "add " + option_text("derivatives", "spline") + " or leave it out");
   reader.read({"spline_scheme", "spline_degree"});
   const Volume_options& spline = reader.request().source.spline;
   if (spline.spline_scheme == Spline_scheme::PAPER && spline.spline_degree != 5)
-    fail_option("spline_degree", "the paper's spline has degree 5",
+    fail_option("spline_degree", option_text("spline_scheme", "paper") + " has degree 5",
                 "leave it out or use another " + option_text("spline_scheme"));
   reader.read({"smoothing"});
 }
 
-/// Reads what a file `.raw` does not say itself; the options are refused for others.
+/// Reads the layout of a .raw file; refuses these options for other files.
 void read_raw_layout(Option_reader& reader) {
   if (reader.command() == SAMPLE) return; // its --type is the type that it writes
   const Source_options& source = reader.request().source;
   const bool is_raw = source.kind == Source_kind::VOLUME && has_extension(source.text, ".raw");
   if (!is_raw)
-    return reader.refuse({"dims", "spacing", "origin", "type"}, "it is for a --volume FILE.raw, which has no header",
-                         "leave it out");
+    return reader.refuse({"dims", "spacing", "origin", "type"},
+                         "it applies only to --volume FILE.raw, which has no header", "leave it out");
   for (const char* option : {"dims", "type"})
-    reader.need(option,
-                "a .raw has no header" + by_front_end(", say for instance --dims 256 256 128 --type int16", ""));
+    reader.need(option, by_front_end("write for example --dims 256 256 128 --type int16, since ", "give it, since ") +
+                            "a .raw file has no header");
   reader.read({"dims", "spacing", "origin", "type"});
 }
 
-/// Reads what is to be read of a volume; the options are refused for other sources.
+/// Reads the options that select a part of a volume file; refuses them for other sources.
 void read_selection(Option_reader& reader) {
   const Source_options& source = reader.request().source;
   if (source.kind != Source_kind::VOLUME)
-    reader.refuse({"component", "time", "allow_outside"}, "it is for a --volume", "leave it out");
-  if (source.raw)
-    reader.refuse({"component", "time", "allow_outside"}, "it is for a --volume with a header, and a .raw has none",
-                  "leave it out");
+    reader.refuse({"component", "time", "allow_outside"}, "it applies only to --volume", "leave it out");
+  if (source.raw) reader.refuse({"component", "time", "allow_outside"}, "a .raw file has no header", "leave it out");
   reader.read({"component", "time", "allow_outside"});
 }
 
@@ -211,7 +209,7 @@ void read_source(Option_reader& reader) {
   read_raw_layout(reader);
   read_selection(reader);
   if (reader.request().source.kind != Source_kind::DISTANCE)
-    reader.refuse({"narrow_band"}, "it is for --distance-to", "leave it out");
+    reader.refuse({"narrow_band"}, "it applies only to --distance-to", "leave it out");
   refuse_fit_options(reader);
   reader.read({"narrow_band", "scale", "noise", "degree", "feature_angle"});
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How options become a request, by their rows in the table.
+// Turns options into a request, by their rows in the table.
 #ifndef EQUIAFFINE_PROGRAM_CLI_OPTION_READER_H
 #define EQUIAFFINE_PROGRAM_CLI_OPTION_READER_H
 
@@ -30,16 +30,16 @@ public:
   bool has(const std::string& option) const { return line_.has(option); }
   const std::string& word(const std::string& option) const { return line_.word(option); }
 
-  /// Reads those of the options that are given.
+  /// Reads the options that are given among these.
   void read(std::initializer_list<const char*> options);
 
-  /// Reads all options that are given and were not read yet, in the order of the table.
+  /// Reads all other given options, in the order of the table.
   void read_rest();
 
-  /// Throws for an option that is given.
+  /// Throws if one of the options is given.
   void refuse(std::initializer_list<const char*> options, const std::string& reason, const std::string& advice) const;
 
-  /// Throws for an option that is not given.
+  /// Throws if the option is not given.
   void need(const std::string& option, const std::string& advice) const;
 
 private:
@@ -50,10 +50,10 @@ private:
   Request request_;
 };
 
-/// The paths of the files that the command line says to read, and of those that the headers of volumes among them name.
+/// The files that the command line reads, including those named by headers of volumes.
 std::vector<std::string> input_files(const Option_reader& reader);
 
-/// Throws if an output would replace what is read, or another output.
+/// Throws if an output would overwrite an input or another output.
 void check_outputs(const std::vector<std::string>& inputs, const std::vector<std::optional<std::string>>& outputs);
 
 /// Throws if there is no `--output`.
@@ -62,14 +62,14 @@ void need_output(const Option_reader& reader);
 /// Throws for options of a picture without `--png`.
 void refuse_picture_options(const Option_reader& reader);
 
-/// Throws for options of a page and of a picture without either.
+/// Throws for options of pages and pictures without `--html` and `--png`.
 void refuse_page_options(const Option_reader& reader);
 
-/// Reads the options of the source, and checks that they go together.
+/// Reads the options of the source, and checks that they are consistent.
 void read_source(Option_reader& reader);
 
-/// Reads the command line of `register`: one source stands before the word `to`, the other one after it, and options
-/// that belong to neither may stand on both sides. Throws `Input_error`.
+/// Reads the command line of `register`: the word `to` separates the two sources; options that belong to neither source
+/// are accepted on both sides. Throws `Input_error`.
 Request parse_register_options(const Words& arguments);
 
 void read_symmetries_options(Option_reader& reader);

@@ -36,8 +36,8 @@ std::vector<const Option_row*> options_of(Command command) {
 
 namespace {
 
-/// Writes help with our own usage lines, which are part of the descriptions, and with the lines of texts as they are:
-/// the formatters of CLI11 break them, and differ from version to version.
+/// Writes the usage lines, which are part of the descriptions, and keeps the line breaks of all texts. The formatters
+/// of CLI11 change line breaks, and differ between versions.
 class Help_formatter : public CLI::FormatterBase {
 public:
   std::string make_help(const CLI::App* app, std::string, CLI::AppFormatMode) const override {
@@ -96,13 +96,13 @@ constexpr std::array<Command_text, 7> command_texts = {
      {REGISTER, "register", register_description, register_footer},
      {SYMMETRIES, "symmetries", symmetries_description, symmetries_footer}}};
 
-/// The heading below which an option stands in the help of a command.
+/// The title of the section in the help of a command.
 std::string title_of(Option_group group, Command command) {
   switch (group) {
   case Option_group::INPUT: return "Input";
   case Option_group::SOURCE:
     return command == SAMPLE       ? "Source (one of --function, --distance-to, --fit)"
-           : command == REGISTER   ? "Source, before and after the word to (one of FILE, --function, --volume, "
+           : command == REGISTER   ? "Source, before and after the word \"to\" (one of FILE, --function, --volume, "
                                      "--distance-to, --fit)"
            : command == SYMMETRIES ? "Source (one of FILE, --function, --volume, --distance-to, --fit)"
                                    : "Source (one of --function, --volume, --distance-to, --fit)";
@@ -118,7 +118,7 @@ std::string title_of(Option_group group, Command command) {
   }
 }
 
-/// The table of options as a CLI::App, and what was found on the command line.
+/// The table of options as a CLI::App, and the options found on the command line.
 class Grammar {
 public:
   Grammar() : app_(program_description, "equiaffine") {
@@ -147,7 +147,7 @@ public:
       return result_;
     } catch (const CLI::ArgumentMismatch& error) { // "--box: 6 required .. missing"
       const std::string text = error.what(), option = text.substr(0, text.find(':'));
-      if (app_.get_subcommands().empty()) fail_before_command("--"); // after it CLI11 parses a command and forgets it
+      if (app_.get_subcommands().empty()) fail_before_command("--"); // CLI11 parses a command after --, and loses it
       throw Input_error(option + ": it needs " + app_.get_subcommands().front()->get_option(option)->get_type_name() +
                         "; " + see_help());
     } catch (const CLI::ParseError& error) {
@@ -183,8 +183,8 @@ private:
     option.group(title);
   }
 
-  /// Lets options take all numbers that follow them: CLI11 itself would take a number such as -.5 beyond the least ones
-  /// for an option. How many are too many the option says itself.
+  /// Lets options take all numbers that follow them: beyond the least number of words, CLI11 would treat a number such
+  /// as -.5 as an option. The option itself rejects too many numbers.
   void admit_longer_lists(const Words& arguments) {
     for (const auto& [command, option, row] : number_lists_)
       for (auto word = arguments.begin(); word != arguments.end(); ++word) {
@@ -209,7 +209,7 @@ private:
   void check_words() {
     if (const Words rest = app_.remaining(); !rest.empty()) fail_before_command(rest.front());
     if (app_.get_subcommands().empty())
-      throw Input_error("no command is given; use mesh, evaluate, sample, view, annotate, register or symmetries, " +
+      throw Input_error("the command is missing; use mesh, evaluate, sample, view, annotate, register or symmetries, " +
                         see_help());
     const CLI::App& command = *app_.get_subcommands().front();
     result_.command = std::find_if(command_texts.begin(), command_texts.end(), [&](const Command_text& text) {
@@ -222,7 +222,7 @@ private:
 
   [[noreturn]] void fail_before_command(const std::string& word) const {
     if (word.starts_with('-'))
-      throw Input_error("option '" + word + "' before the command; write 'equiaffine COMMAND [options]', " +
+      throw Input_error("option '" + word + "' stands before the command; write 'equiaffine COMMAND [options]', " +
                         see_help());
     Words names;
     for (const Command_text& text : command_texts) names.emplace_back(text.name);
@@ -236,7 +236,7 @@ private:
       throw Input_error("unknown option '" + word + "'" + (advice.empty() ? suggestion(name, names(command)) : "") +
                         "; " + advice_or_help(advice));
     }
-    throw Input_error("'" + word + "' is not expected there; " + advice_or_help(advice_on_word(result_, word)));
+    throw Input_error("unexpected word '" + word + "'; " + advice_or_help(advice_on_word(result_, word)));
   }
 
   std::string advice_or_help(const std::string& advice) const { return advice.empty() ? see_help() : advice; }
@@ -253,7 +253,7 @@ private:
     }
   }
 
-  /// An option that takes several numbers or more.
+  /// An option with a variable number of numbers.
   struct Number_list {
     const CLI::App* command;
     CLI::Option* option;

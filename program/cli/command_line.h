@@ -15,7 +15,7 @@
 
 namespace equiaffine {
 
-/// Formulas and volumes have z up unless something else is asked for; the shapes of data tell what is up.
+/// By default z is up for formulas and volumes. For data, `up` is guessed from the shape.
 inline void choose_up(Source_kind kind, Display_request& display) {
   if (kind != Source_kind::FIT && kind != Source_kind::DISTANCE) display.guesses_up = false;
 }
@@ -26,17 +26,16 @@ using Commands = unsigned;
 /// The commands that look for maps.
 inline constexpr Commands registering = REGISTER | SYMMETRIES;
 
-/// Says below which heading of the help an option stands. The words of the heading depend on the command: title_of() in
-/// command_line.cpp has them.
+/// The section of the help that lists an option. Its title depends on the command; see title_of() in command_line.cpp.
 enum class Option_group { INPUT, SOURCE, BOX, FIT, SURFACE, SAMPLING, MARCHING_CUBES, DELAUNAY, REMESH, MAPS, OUTPUT };
 
-/// Whether the options of the group belong to the source or to its surface. Others of `register`, which has two
-/// sources, may stand on either side of the word `to`.
+/// Whether the options of the group belong to the source or its surface. With `register`, which has two sources, other
+/// options may stand on either side of the word `to`.
 inline bool belongs_to_source(Option_group group) {
   return group != Option_group::MAPS && group != Option_group::OUTPUT;
 }
 
-/// How many words follow the name of an option.
+/// The number of words after the name of an option.
 struct Number_of_words {
   int least, most; ///< `most` is unlimited if it is 0 and `least` is not
 
@@ -46,21 +45,21 @@ struct Number_of_words {
 
 constexpr int unlimited = 0;
 
-/// A row of the table says everything about one option, from its help to where its value goes. For a new option add a
-/// row to source_options.cpp, surface_options.cpp or output_options.cpp.
+/// Everything about one option. To add an option, add a row to source_options.cpp, surface_options.cpp or
+/// output_options.cpp.
 struct Option_row {
-  /// Such as "-o,--output"; a positional argument has a name without dashes. Long names after the first one are
-  /// accepted, and not shown.
+  /// Such as "-o,--output"; a positional argument has a name without dashes. Further long names are aliases, which the
+  /// help does not show.
   std::string names;
   Commands commands;
   Option_group group;
   Number_of_words words;
-  std::string type; ///< how the help writes the words
+  std::string type; ///< placeholder of the words in the help
   std::string help;
-  /// Reads the words and puts their value into the request. Throws `Input_error` if it cannot read them.
+  /// Stores the value of the words in the request. Throws `Input_error` if they are invalid.
   void (*read)(const Option_words& option, Request& request);
 
-  /// The name of the option in C++ and Python, min_overlap for --min-overlap, or that of a positional argument.
+  /// The name of the option in C++ and Python (min_overlap for --min-overlap), or of the positional argument.
   std::string name() const;
 
   /// Whether the word is one of the names.
@@ -75,15 +74,15 @@ std::span<const Option_row> surface_options();
 std::span<const Option_row> map_options();
 std::span<const Option_row> output_options();
 
-/// The rows of a command in the order of its help.
+/// The rows of the command, in the order of its help.
 std::vector<const Option_row*> options_of(Command command);
 
-/// The options that are given, before the meaning of their words is read.
+/// The given options with their words, not interpreted yet.
 struct Command_line {
   Command command = MESH;
   std::map<std::string, Words> options;   ///< by the name() of the option's row
-  std::optional<std::string> information; ///< help or version, if it was asked for
-  bool writes_files = true; ///< or returns its results; then options of sources are names for data in memory
+  std::optional<std::string> information; ///< help or version, if requested
+  bool writes_files = true; ///< false if results are returned; then options of sources name data in memory
 
   bool has(const std::string& option) const { return options.count(option) > 0; }
 
@@ -91,8 +90,8 @@ struct Command_line {
   const std::string& word(const std::string& option) const { return options.at(option).front(); }
 };
 
-/// Splits the command line with CLI11. Words that an option needs are its own whatever they look like, so that `-.5`
-/// and `-x^2` need no quoting tricks. Throws `Input_error` for a line that does not follow the grammar.
+/// Splits the command line with CLI11. An option takes the words it needs whatever they look like, so `-.5` and `-x^2`
+/// need no special quoting. Throws `Input_error` if the line does not follow the grammar.
 Command_line split_command_line(const std::vector<std::string>& arguments);
 
 } // namespace equiaffine

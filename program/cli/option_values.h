@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Turns words of options into values. Every function throws `Input_error`, with the name of the option.
+// Turns words of options into values. Every function throws `Input_error` with the name of the option.
 #ifndef EQUIAFFINE_PROGRAM_CLI_OPTION_VALUES_H
 #define EQUIAFFINE_PROGRAM_CLI_OPTION_VALUES_H
 
@@ -22,7 +22,7 @@ namespace equiaffine {
 
 using Words = std::vector<std::string>;
 
-/// An option that is given: its name in C++, the words after it, and their type in the help.
+/// A given option: its name in C++, its words, and their type in the help.
 struct Option_words {
   std::string name;
   Words words;
@@ -34,7 +34,7 @@ struct Option_words {
 /// "option: reason; advice", where `option` is the name in C++.
 [[noreturn]] void fail_option(const std::string& option, const std::string& reason, const std::string& advice);
 
-/// Checks an options struct. Throws its error with the name of the option in the place of that of the field.
+/// Checks an options struct. Throws its error with the name of the option instead of that of the field.
 template <class Options>
 void check_options(const Options& options) {
   try {
@@ -46,7 +46,7 @@ void check_options(const Options& options) {
 
 bool is_number(const std::string& word);
 
-/// A finite number, written as such or, on the command line, as arithmetic with numbers, such as 2*pi/3.
+/// A finite number. The command line also accepts arithmetic, such as 2*pi/3.
 double parse_finite_number(const std::string& option, const std::string& word);
 
 /// The only word of the option as a number.
@@ -67,8 +67,7 @@ std::array<std::size_t, 3> parse_resolution(const Option_words& option);
 /// XMIN XMAX YMIN YMAX ZMIN ZMAX
 CGAL::Bbox_3 parse_box(const Option_words& option);
 
-/// Nine numbers, row by row, of a matrix that is not singular, rounding considered, and three of a translation if they
-/// are given.
+/// A matrix, row by row, that is not numerically singular, and optionally a translation: 9 or 12 numbers.
 CGAL::Aff_transformation_3<Kernel> parse_transformation(const Option_words& option);
 
 /// name=value, where the value is a number or arithmetic.
@@ -92,8 +91,8 @@ bool parse_flag(const Option_words& option);
 /// The path after the @ if the word of --function is `@FILE`, or nothing if it is a formula.
 std::optional<std::string> formula_file(const std::string& word);
 
-/// The formula in a file, with spaces for its line breaks. Throws `Input_error` if there is none, or none that could
-/// be a formula.
+/// The formula in a file, with spaces for line breaks. Throws `Input_error` if the file cannot be read, is empty or is
+/// too long for a formula.
 std::string read_formula(const std::string& path);
 
 } // namespace equiaffine

@@ -25,7 +25,7 @@ std::string joined(const Names& names, const std::string& separator) {
   return text;
 }
 
-/// Breaks a text into as few lines as can hold its words.
+/// Breaks a text into the fewest lines of the width.
 std::string wrapped(const std::string& text, std::size_t width) {
   std::istringstream words(text);
   std::string result, line;
@@ -37,7 +37,7 @@ std::string wrapped(const std::string& text, std::size_t width) {
   return result + line;
 }
 
-/// The names of the estimates that are not of the error.
+/// The names of the estimates other than errors.
 std::vector<std::string> estimates_of_scale() {
   std::vector<std::string> names;
   for (const auto& attribute : estimate_attributes())
@@ -45,12 +45,12 @@ std::vector<std::string> estimates_of_scale() {
   return names;
 }
 
-/// The help of annotate's option --attributes in lines of at most 88 characters, with the names of the library's table.
+/// The help of annotate's option --attributes, in lines of at most 88 characters, with names from the library's table.
 std::string attributes_of_fit_help() {
   const Attribute_names names = attribute_names();
-  return wrapped("what to compute: basic (the default) is " + joined(names.basic, ", ") + ", status, " +
+  return wrapped("attributes to compute: basic (the default) is " + joined(names.basic, ", ") + ", status, " +
                      joined(error_attributes(), ", ") + "; all adds " + joined(names.added_by_all, ", ") + ", " +
-                     joined(estimates_of_scale(), ", ") + "; LIST is some of these words with commas between, also " +
+                     joined(estimates_of_scale(), ", ") + "; LIST is any of these names, separated by commas, also " +
                      joined(names.by_name, ", "),
                  88);
 }
@@ -58,12 +58,12 @@ std::string attributes_of_fit_help() {
 /// The same for other commands.
 std::string attributes_help() {
   const Attribute_names names = attribute_names();
-  return wrapped("what to compute: basic (the default) is " + joined(names.basic, ", ") + ", status; all adds " +
-                     joined(names.added_by_all, ", ") + "; LIST is some of these words with commas between, also " +
+  return wrapped("attributes to compute: basic (the default) is " + joined(names.basic, ", ") + ", status; all adds " +
+                     joined(names.added_by_all, ", ") + "; LIST is any of these names, separated by commas, also " +
                      joined(names.by_name, ", ") +
                      ", signature (affine curvatures, pick_invariant, and the norms of their gradients); for a "
-                     "spline affine_gaussian_curvature_error, affine_mean_curvature_error; for a fit basic also has "
-                     "the estimate NAME_error of every NAME in it, and all adds " +
+                     "spline affine_gaussian_curvature_error, affine_mean_curvature_error; for a fit, basic also has "
+                     "the estimate NAME_error of each NAME in it, and all adds " +
                      joined(estimates_of_scale(), ", "),
                  88);
 }
@@ -84,7 +84,7 @@ Attribute_selection select(const std::string& list, const std::string& option) {
   }
 }
 
-/// The words of a list of attributes: those that the library computes, and estimates, which the source makes.
+/// The words of a list of attributes: those that the library computes, and estimates, which the source provides.
 struct Attribute_words {
   Words attributes;
   std::set<std::string> estimates;
@@ -106,7 +106,7 @@ Attribute_words split_attributes(const Option_words& option) {
   return words;
 }
 
-/// Puts the words into the request, the estimates in the order of their table.
+/// Stores the words in the request, estimates in the order of their table.
 void select(const Attribute_words& words, const std::string& option, Request& request) {
   std::string list;
   for (const std::string& name : words.attributes) list += (list.empty() ? "" : ",") + name;
@@ -116,7 +116,7 @@ void select(const Attribute_words& words, const std::string& option, Request& re
     if (words.estimates.contains(attribute.name)) request.estimates.push_back(attribute.name);
 }
 
-/// The lists of attributes of a fit have estimates, too.
+/// Adds the estimates to the lists of attributes of a fit.
 void add_estimates_of_lists(Attribute_words& words) {
   for (const std::string& name : words.attributes) {
     if (name == "all" || name == "basic") words.add(Estimate_kind::ERROR);
@@ -126,14 +126,15 @@ void add_estimates_of_lists(Attribute_words& words) {
   }
 }
 
-/// Checks the estimates for a source that is no fit, and adds those that come together.
+/// Checks the estimates for a source that is not a fit, and adds those that are computed together.
 void complete_estimates(const Option_words& option, const Request& request, Attribute_words& words) {
   if (words.estimates.empty()) return;
   for (const auto& attribute : estimate_attributes())
     if (!attribute.is_of_splines && words.estimates.contains(attribute.name))
-      fail_option(option.name, "'" + attribute.name + "' is estimated for fits", by_front_end("use --fit", "use a fit") + " or leave it out");
+      fail_option(option.name, "'" + attribute.name + "' is estimated only for fits",
+                  by_front_end("use --fit", "use a fit") + " or leave it out");
   if (request.source.derivatives == Derivatives::JETS)
-    fail_option(option.name, "errors are estimated for splines and fits, and the derivatives of a formula have none",
+    fail_option(option.name, "errors are estimated only for splines and fits; the derivatives of a formula are exact",
                 by_front_end("add --derivatives spline or ", "") + "leave them out");
   for (const auto& attribute : estimate_attributes())
     if (attribute.is_of_splines) words.estimates.insert(attribute.name);
@@ -144,7 +145,7 @@ void read_attributes_of_fit(const Option_words& option, Request& request) {
   Attribute_words words = split_attributes(option);
   for (const std::string& name : words.attributes)
     if (name == "signature" || name.ends_with("_gradient"))
-      fail_option(option.name, "'" + name + "' needs a function, and a fit at points has no gradients of curvatures",
+      fail_option(option.name, "'" + name + "' needs a function; fits at points have no gradients of curvatures",
                   "leave it out, or use " + by_front_end("mesh --fit", "fit(V).mesh()"));
   add_estimates_of_lists(words);
   select(words, option.name, request);
@@ -154,25 +155,26 @@ void read_output(const Option_words& option, Request& request) { request.output 
 
 const std::vector<Option_row> rows_of_outputs = {
     {"-o,--output", MESH, OUTPUT, 1, "OUT",
-     "the mesh: .ply .off .obj .stl .vtp, or its vertices as .csv; - writes OFF to standard\n"
-     "output. Attributes are in .ply .csv .vtp, normals in .obj",
+     "the mesh, .ply .off .obj .stl .vtp, or its vertices, .csv; - writes OFF to standard output.\n"
+     ".ply .csv .vtp contain the attributes, .obj the normals",
      read_output},
     {"-o,--output", EVALUATE, OUTPUT, 1, "OUT",
      "the points with their attributes, .csv or .ply; - writes CSV to standard output", read_output},
     {"-o,--output", SAMPLE, OUTPUT, 1, "VOLUME", "the volume: .nrrd .mhd .mha .nii .nii.gz .vti", read_output},
-    {"-o,--output", VIEW, OUTPUT, 1, "PAGE.html", "the page, needed unless there is --png; - writes to standard output",
+    {"-o,--output", VIEW, OUTPUT, 1, "PAGE.html", "the page, required without --png; - writes to standard output",
      read_output},
     {"-o,--output", ANNOTATE, OUTPUT, 1, "OUT",
-     "the same vertices and faces with attributes: .ply .vtp, or the vertices as .csv; - writes\n"
-     "CSV to standard output",
+     "the same vertices and faces with attributes, .ply .vtp, or the vertices, .csv; - writes CSV\n"
+     "to standard output",
      read_output},
-    {"-o,--output", REGISTER, OUTPUT, 1, "MAP.json", "the map, or that there is none; - writes to standard output",
+    {"-o,--output", REGISTER, OUTPUT, 1, "MAP.json", "the map, or \"found\": false; - writes to standard output",
      read_output},
     {"-o,--output", SYMMETRIES, OUTPUT, 1, "MAPS.json", "the maps; - writes to standard output", read_output},
     {"--moved", REGISTER, OUTPUT, 1, "OUT",
-     "also the moved source, as a mesh with distances from the target: .ply .off .obj .stl .vtp\n.csv",
+     "also write the moved source, a mesh with distances from the target: .ply .off .obj .stl\n"
+     ".vtp .csv",
      [](const Option_words& option, Request& request) { request.moved = option.word(); }},
-    {"--type", SAMPLE, OUTPUT, 1, "float|double", "the type of the samples, by default double",
+    {"--type", SAMPLE, OUTPUT, 1, "float|double", "type of the samples, by default double",
      [](const Option_words& option, Request& request) {
        request.samples_are_float = parse_choice(option, {true, false});
      }},
@@ -185,25 +187,24 @@ const std::vector<Option_row> rows_of_outputs = {
      }},
     {"--attributes", ANNOTATE, OUTPUT, 1, "basic|all|none|LIST", attributes_of_fit_help(), read_attributes_of_fit},
     {"--estimator", MESH | EVALUATE, OUTPUT, 1, "compact|transformation|direct|direct-z",
-     "how conormal, affine_normal, affine_gaussian_curvature and affine_mean_curvature are\n"
-     "computed from the derivatives: our own formulas (compact, the default), or those of\n"
-     "Andrade and Lewiner, to compare with",
+     "formulas for conormal, affine_normal, affine_gaussian_curvature and affine_mean_curvature:\n"
+     "ours (compact, the default), or those of Andrade and Lewiner, for comparison",
      [](const Option_words& option, Request& request) {
        request.estimator = parse_choice(
            option, {Estimator::COMPACT, Estimator::TRANSFORMATION, Estimator::DIRECT, Estimator::DIRECT_Z});
      }},
     {"--html", MESH | ANNOTATE | registering, OUTPUT, 1, "PAGE.html",
-     "also a web page to look at the surface, without network",
+     "also write an interactive web page that works offline",
      [](const Option_words& option, Request& request) { request.display.html = option.word(); }},
     {"--png", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "PICTURE.png",
-     "also a picture, which is what the page shows first; needs no display",
+     "also write a picture, the initial view of the page; needs no display",
      [](const Option_words& option, Request& request) { request.display.png = option.word(); }},
     {"--color", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "NAME",
-     "the attribute that page and picture show first, or status or plain",
+     "attribute that page and picture show first, or status or plain",
      [](const Option_words& option, Request& request) { request.display.color = option.word(); }},
     {"--up", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "x|y|z|auto",
-     "the axis that points up on them: by default z for formulas and volumes; auto, the default\n"
-     "for all else, is y, as in most scans, or z if the shape stands on a wider foot along z",
+     "axis that points up: by default z for formulas and volumes; otherwise auto, which is y, as\n"
+     "in most scans, or z if the shape has a wider base along z",
      [](const Option_words& option, Request& request) {
        using Up = std::optional<std::array<double, 3>>;
        const auto up = parse_choice<Up>(option, {{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}, std::nullopt});
@@ -211,28 +212,28 @@ const std::vector<Option_row> rows_of_outputs = {
        request.display.guesses_up = !up;
      }},
     {"--colors", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "linear|logarithmic|equalized|auto",
-     "how numbers become colors; equalized gives equal areas of the surface equal parts of the\n"
-     "color bar, for each sign. By default, auto, the first of them by which the median is an\n"
-     "eighth of the bar away from white",
+     "color scale; equalized maps equal areas of the surface to equal parts of the color bar, for\n"
+     "each sign. By default (auto) the first of these scales that puts the median at least 1/8 of\n"
+     "the bar away from white",
      [](const Option_words& option, Request& request) {
        using Scale = std::optional<Color_scale>;
        request.display.colors =
            parse_choice<Scale>(option, {Color_scale::LINEAR, Color_scale::ASINH, Color_scale::EQUALIZED, std::nullopt});
      }},
     {"--size", MESH | VIEW | ANNOTATE | registering, OUTPUT, 2, "WIDTH HEIGHT",
-     "of the picture in pixels, by default 1000 800",
+     "size of the picture in pixels, by default 1000 800",
      [](const Option_words& option, Request& request) {
        constexpr std::size_t least = 100, most = 10'000; // for a legend, and for memory
        for (std::size_t n = 0; n < 2; ++n) {
          const std::string& word = option.words[n];
          request.display.size[n] = parse_count(option.name, word, least);
          if (request.display.size[n] > most)
-           fail_option(option.name, "'" + word + "' is more than 10000", "give fewer pixels");
+           fail_option(option.name, "'" + word + "' is more than 10000 pixels", "give fewer pixels");
        }
      }},
     {"--range", MESH | VIEW | ANNOTATE | registering, OUTPUT, 2, "LOW HIGH",
-     "the numbers of the end colors of page and picture, by default quantiles;\n"
-     "blue and red about white if LOW is -HIGH",
+     "values at the ends of the color bar, by default quantiles; blue and red on both sides of\n"
+     "white if LOW is -HIGH",
      [](const Option_words& option, Request& request) {
        const auto& [name, words, type] = option;
        const double low = parse_finite_number(name, words[0]), high = parse_finite_number(name, words[1]);
@@ -241,23 +242,24 @@ const std::vector<Option_row> rows_of_outputs = {
        request.display.range = {low, high};
      }},
     {"--range-of", MESH | VIEW | ANNOTATE | registering, OUTPUT, 1, "FILE",
-     "numbers get the colors that they have in a page of ours, .html, or would have in a mesh\n"
-     "with the same attribute, .ply, so that two surfaces can be compared",
+     "take the color scale from a page of this program, .html, or from a mesh with the same\n"
+     "attribute, .ply, to compare two surfaces",
      [](const Option_words& option, Request& request) {
        if (request.display.range)
-         fail_option(option.name, option_text("range") + " says which numbers have the end colors, too",
+         fail_option(option.name, option_text("range") + " also sets the ends of the color bar",
                      "leave one of them out");
        request.display.range_of = option.word();
      }},
     {"--arrows", MESH | VIEW | ANNOTATE | SYMMETRIES, OUTPUT, 1, "VECTOR",
-     "arrows on the picture, such as affine_normal",
+     "vector to draw as arrows on the picture, such as affine_normal",
      [](const Option_words& option, Request& request) { request.display.arrows = option.word(); }},
     {"--parabolic-curves", MESH, OUTPUT, 1, "CURVES",
-     "also the curves on the surface where gaussian_curvature is 0 and changes its sign:\n"
+     "also write the curves on the surface where gaussian_curvature changes its sign:\n"
      ".obj" +
          vtp + "; - writes OBJ to standard output",
      [](const Option_words& option, Request& request) { request.parabolic_curves = option.word(); }},
-    {"--stats", MESH | ANNOTATE, OUTPUT, 1, "FILE.json", "also statistics: sizes, topology, status, accuracy, times",
+    {"--stats", MESH | ANNOTATE, OUTPUT, 1, "FILE.json",
+     "also write statistics: sizes, topology, status, accuracy, times",
      [](const Option_words& option, Request& request) { request.stats = option.word(); }},
 };
 

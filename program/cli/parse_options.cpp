@@ -16,10 +16,10 @@ namespace equiaffine {
 namespace {
 
 void read_delaunay_options(Option_reader& reader) {
-  reader.refuse({"vertices"}, "it is for " + option_text("method", "marching-cubes"), "leave it out");
+  reader.refuse({"vertices"}, "it applies only to " + option_text("method", "marching-cubes"), "leave it out");
   if (reader.request().source.derivatives == Derivatives::JETS)
-    reader.refuse({"resolution"}, option_text("method", "delaunay") + " needs no grid for a formula or a fit",
-                  "leave it out and say with " + option_text("radius") + " how fine the mesh is to be");
+    reader.refuse({"resolution"}, option_text("method", "delaunay") + " uses no grid for a formula or a fit",
+                  "leave it out, and set the size of triangles with " + option_text("radius"));
   reader.read({"angle", "radius", "distance"});
   check_options(reader.request().delaunay);
   reader.read({"sizing", "clip"});
@@ -28,9 +28,9 @@ void read_delaunay_options(Option_reader& reader) {
 void read_remesh_options(Option_reader& reader) {
   const Request& request = reader.request();
   if (request.source.kind != Source_kind::FIT || !reader.writes_files())
-    fail_option("method", "remesh is for a fit to a mesh" + by_front_end("", " in a file"),
+    fail_option("method", "remesh needs a fit to a mesh" + by_front_end("", " in a file"),
                 by_front_end("add --fit FILE, or ", "") + "use marching-cubes or delaunay");
-  const std::string remesh = option_text("method", "remesh"), reason = remesh + " has no grid",
+  const std::string remesh = option_text("method", "remesh"), reason = remesh + " uses no grid",
                     advice = "leave it out, or use " + option_text("method", "marching-cubes");
   reader.refuse({"resolution", "vertices"}, reason, advice);
   reader.refuse({"level", "box", "parabolic_curves"}, remesh + " moves the vertices of the whole mesh to the fit",
@@ -39,7 +39,7 @@ void read_remesh_options(Option_reader& reader) {
   check_options(request.remesh);
 }
 
-/// Whether the faces of a fit, if there are any, are to be remeshed: without a method, or an option that is for others.
+/// Whether to remesh the faces of a fit, if it has any: if neither a method nor an option of other methods is given.
 bool prefers_remesh(const Option_reader& reader) {
   constexpr std::array others = {"method", "level", "resolution", "vertices", "box", "parabolic_curves"};
   return reader.request().source.kind == Source_kind::FIT &&
@@ -53,11 +53,10 @@ void read_method(Option_reader& reader) {
   if (prefers_remesh(reader) && reader.has("edge_length")) request.method = Mesh_method::REMESH;
   const Mesh_method method = request.method;
   if (method != Mesh_method::DELAUNAY)
-    reader.refuse({"angle", "radius", "distance", "sizing", "clip"}, "it is for " + option_text("method", "delaunay"),
-                  "add " + option_text("method", "delaunay") + " or leave it out");
+    reader.refuse({"angle", "radius", "distance", "sizing", "clip"},
+                  "it applies only to " + option_text("method", "delaunay"), "add that or leave it out");
   if (method != Mesh_method::REMESH)
-    reader.refuse({"edge_length"}, "it is for " + option_text("method", "remesh"),
-                  "add " + option_text("method", "remesh") + " or leave it out");
+    reader.refuse({"edge_length"}, "it applies only to " + option_text("method", "remesh"), "add that or leave it out");
   if (method == Mesh_method::DELAUNAY) read_delaunay_options(reader);
   else if (method == Mesh_method::REMESH) read_remesh_options(reader);
   else reader.read({"vertices"});
@@ -73,7 +72,7 @@ bool has_column(const Request& request, const std::string& name) {
   return std::any_of(columns.begin(), columns.end(), [&](const Attribute& column) { return column.name == name; });
 }
 
-/// Whether there is a column whose errors are estimated.
+/// Whether the errors of a column are estimated.
 bool has_column_with_error(const Request& request) {
   return std::any_of(rows_with_error.begin(), rows_with_error.end(),
                      [&](const auto* row) { return has_column(request, std::string(row->name)); });
@@ -85,25 +84,25 @@ bool has_color(const Request& request, const std::string& name) {
          std::find(estimates.begin(), estimates.end(), name) != estimates.end();
 }
 
-/// Checks that there is a page or picture, and that it will have the attributes it is to show.
+/// Checks that the attributes to show are computed, and that a page or picture is requested if they are given.
 void check_page(const Option_reader& reader) {
   refuse_page_options(reader);
   const Request& request = reader.request();
   const std::string &arrows = request.display.arrows, &color = request.display.color;
   if (!arrows.empty() && !has_vector(request.attributes, arrows))
-    fail_option("arrows", "'" + arrows + "' is not among the vectors that are computed",
-                "name one of them, such as affine_normal, or add it to " + option_text("attributes"));
+    fail_option("arrows", "the vector '" + arrows + "' is not computed",
+                "name another one, such as affine_normal, or add it to " + option_text("attributes"));
   if (!color.empty() && !has_color(request, color))
-    fail_option("color", "'" + color + "' is not among the attributes that are computed",
-                "name one of them, such as affine_mean_curvature, or add it to " + option_text("attributes"));
+    fail_option("color", "the attribute '" + color + "' is not computed",
+                "name another one, such as affine_mean_curvature, or add it to " + option_text("attributes"));
 }
 
-/// Throws if the paper's scheme is used in a way that needs a function, since its expansions are not those of one.
+/// Throws if the paper's scheme is used where a function is needed: its expansions do not belong to one function.
 void check_scheme(const Request& request) {
   if (request.source.spline.spline_scheme != Spline_scheme::PAPER) return;
   if (request.method != Mesh_method::MARCHING_CUBES || request.marching_cubes.vertices != Vertex_position::LINEAR ||
       request.parabolic_curves)
-    fail_option("spline_scheme", "paper is for Marching Cubes with linear vertices and without parabolic curves",
+    fail_option("spline_scheme", "paper works only with linear vertices of Marching Cubes, without parabolic curves",
                 "add " + option_text("vertices", "linear") + ", or use convolution");
 }
 
@@ -155,7 +154,7 @@ void read_sample_options(Option_reader& reader) {
 }
 
 void read_view_options(Option_reader& reader) {
-  if (!reader.has("MESH.ply")) throw Input_error("no mesh is given; write 'equiaffine view MESH.ply -o PAGE.html'");
+  if (!reader.has("MESH.ply")) throw Input_error("the mesh is missing; write 'equiaffine view MESH.ply -o PAGE.html'");
   check_is_viewable(reader.word("MESH.ply"));
   reader.read({"up"});
   refuse_picture_options(reader);
@@ -163,12 +162,12 @@ void read_view_options(Option_reader& reader) {
   Request& request = reader.request();
   if (reader.has("output")) request.display.html = request.output;
   else if (!request.display.png)
-    throw Input_error("no output is given; name the page, -o PAGE.html, or the picture, --png FILE.png");
+    throw Input_error("the output is missing; name a page, -o PAGE.html, or a picture, --png FILE.png");
   check_outputs(input_files(reader), {request.display.html, request.display.png});
 }
 
 void read_annotate_options(Option_reader& reader) {
-  if (!reader.has("MESH")) throw Input_error("no mesh is given; write 'equiaffine annotate MESH -o OUT.ply'");
+  if (!reader.has("MESH")) throw Input_error("the mesh is missing; write 'equiaffine annotate MESH -o OUT.ply'");
   check_is_annotatable(reader.word("MESH"));
   Request& request = reader.request();
   request.estimates = error_attributes();
@@ -195,7 +194,7 @@ Request read_options(const Command_line& line) {
   case VIEW: read_view_options(reader); break;
   case ANNOTATE: read_annotate_options(reader); break;
   case SYMMETRIES: read_symmetries_options(reader); break;
-  case REGISTER: break; // has a line for each source
+  case REGISTER: break; // read by the overload for two lines
   }
   return reader.request();
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* usage = "write 'equiaffine register SOURCE to SOURCE -o MAP.json'";
 
-/// The number of words that an option takes whatever they look like; 0 for what is no option.
+/// The number of words that an option takes whatever they look like; 0 if the word is not an option.
 std::size_t words_taken(const std::string& word) {
   for (const Option_row* row : options_of(REGISTER)) {
     if (row->has_name(word)) return std::size_t(row->words.least);
@@ -25,7 +25,7 @@ std::size_t words_taken(const std::string& word) {
   return 0;
 }
 
-/// The word `to` between the sources, which is no value of an option; the end if there is none.
+/// The word `to` between the sources; values of options are skipped. The end if there is none.
 Words::const_iterator find_to(const Words& arguments) {
   auto word = arguments.begin();
   while (word != arguments.end() && *word != "to")
@@ -47,12 +47,12 @@ void read_surface(Option_reader& reader) {
   reader.read({"level"});
   Source_options& source = reader.request().source;
   if (source.spline.spline_scheme == Spline_scheme::PAPER)
-    fail_option("spline_scheme", "paper has no expansions that belong to one function", "use quasi-interpolation");
+    fail_option("spline_scheme", "paper does not define a function, which maps need", "use quasi-interpolation");
   source.spline.level = source.level;
   source.is_registered = true;
 }
 
-/// Reads the options that are left, and checks that page and picture have what they are to show.
+/// Reads the remaining options, and checks those of the page and the picture.
 void read_outputs(Option_reader& reader, std::initializer_list<std::string_view> colors) {
   need_output(reader);
   refuse_picture_options(reader);
@@ -60,7 +60,7 @@ void read_outputs(Option_reader& reader, std::initializer_list<std::string_view>
   reader.read_rest();
   const std::string& color = reader.request().display.color;
   if (!color.empty() && std::find(colors.begin(), colors.end(), color) == colors.end())
-    fail_option("color", "'" + color + "' is not known", "use distance or plain");
+    fail_option("color", "unknown value '" + color + "'", "use distance or plain");
 }
 
 } // namespace
@@ -90,7 +90,8 @@ Request parse_register_options(const Words& arguments) {
   const auto to = find_to(arguments);
   Command_line line = split_command_line(Words(arguments.begin(), to));
   if (line.information) return Option_reader(line).request();
-  if (to == arguments.end()) throw Input_error(std::string("the word 'to' between two sources is missing; ") + usage);
+  if (to == arguments.end())
+    throw Input_error(std::string("the word 'to' between the two sources is missing; ") + usage);
   Words rest = {arguments.front()};
   rest.insert(rest.end(), to + 1, arguments.end());
   Command_line target = split_command_line(rest);

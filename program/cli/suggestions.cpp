@@ -17,7 +17,8 @@ namespace equiaffine {
 
 namespace {
 
-/// The number of insertions, deletions, replacements and swaps of neighbors that turn one word into the other.
+/// The number of insertions, deletions, replacements and swaps of neighboring letters that turn one word into the
+/// other.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
   std::iota(last.begin(), last.end(), std::size_t(0));
@@ -60,27 +61,26 @@ std::string annotate(const std::string& path, const std::string& extension) {
   return "'equiaffine annotate " + path + " -o " + stem_of(path) + "-curvatures" + extension + "'";
 }
 
-/// What to write for a surface of the file or formula that stands where no word is expected.
+/// What to write for an unexpected file or formula.
 std::string advice_on_source(Command command, Word_kind kind, const std::string& word) {
   switch (kind) {
   case Word_kind::FORMULA: return "write --function '" + word + "' for a formula";
   case Word_kind::VOLUME_FILE:
-    return command == SAMPLE ? "it is a volume already, and 'equiaffine mesh --volume " + word + "' meshes it"
+    return command == SAMPLE ? "to mesh this volume, use 'equiaffine mesh --volume " + word + "'"
                              : "write --volume " + word;
   case Word_kind::MESH_FILE:
   case Word_kind::POINTS: {
     const bool is_mesh = kind == Word_kind::MESH_FILE;
     return "write --fit " + word + " for the smooth surface through its " +
            (is_mesh ? "vertices, --distance-to " + word + " for its facets" : "points") +
-           (command == EVALUATE ? ", and --points FILE for where" : "") + ", or " +
-           annotate(word, is_mesh ? ".ply" : ".csv") + " for attributes of these " + (is_mesh ? "vertices" : "points") +
-           " themselves";
+           (command == EVALUATE ? " with --points FILE" : "") + ", or " + annotate(word, is_mesh ? ".ply" : ".csv") +
+           " for attributes at these " + (is_mesh ? "vertices" : "points") + " themselves";
   }
   default: return {};
   }
 }
 
-/// An option that commands do not have, and what was meant.
+/// An option that some commands do not have, and what to use instead.
 struct Misplaced_option {
   Commands commands;
   std::string_view option, advice;
@@ -88,24 +88,24 @@ struct Misplaced_option {
 
 constexpr std::array<Misplaced_option, 17> misplaced_options = {
     {{ANNOTATE, "--function",
-      "'equiaffine mesh --function EXPR -o OUT.ply' meshes a formula, and 'equiaffine evaluate --function EXPR "
-      "--points FILE -o OUT.csv' computes at points of a file"},
-     {ANNOTATE, "--volume", "'equiaffine mesh --volume FILE -o OUT.ply' meshes a volume"},
-     {ANNOTATE, "--distance-to", "write the file alone: 'equiaffine annotate FILE -o OUT.ply' fits its vertices"},
-     {ANNOTATE, "--fit", "write the file alone: 'equiaffine annotate FILE -o OUT.ply' fits its vertices"},
-     {ANNOTATE, "--points", "write the file alone: 'equiaffine annotate FILE -o OUT.csv' fits its points"},
-     {VIEW, "--html", "name the page by -o PAGE.html"},
-     {VIEW, "--function", "'equiaffine mesh --function EXPR -o OUT.ply --html PAGE.html' shows a formula"},
-     {VIEW, "--volume", "'equiaffine mesh --volume FILE -o OUT.ply --html PAGE.html' shows a volume"},
-     {VIEW, "--fit", "'equiaffine mesh --fit FILE -o OUT.ply --html PAGE.html' shows a fit"},
-     {VIEW, "--attributes", "view shows what the file has: 'equiaffine annotate' computes attributes"},
-     {EVALUATE, "--html", "evaluate writes a table of points, and mesh and annotate make pages"},
-     {EVALUATE, "--png", "evaluate writes a table of points, and mesh and annotate make pictures"},
-     {SAMPLE, "--html", "sample writes a volume, and 'equiaffine mesh' with the same source makes a page"},
-     {SAMPLE, "--png", "sample writes a volume, and 'equiaffine mesh' with the same source makes a picture"},
-     {SAMPLE, "--volume", "it is sampled already, and 'equiaffine mesh --volume FILE -o OUT.ply' meshes it"},
-     {registering, "--points", "write the file alone, or --fit FILE"},
-     {registering, "--attributes", "maps have no attributes: 'equiaffine annotate' computes them"}}};
+      "for a formula use 'equiaffine mesh --function EXPR -o OUT.ply', or 'equiaffine evaluate --function EXPR "
+      "--points FILE -o OUT.csv' at the points of a file"},
+     {ANNOTATE, "--volume", "for a volume use 'equiaffine mesh --volume FILE -o OUT.ply'"},
+     {ANNOTATE, "--distance-to", "leave out the option: 'equiaffine annotate FILE -o OUT.ply' fits the vertices"},
+     {ANNOTATE, "--fit", "leave out the option: 'equiaffine annotate FILE -o OUT.ply' fits the vertices"},
+     {ANNOTATE, "--points", "leave out the option: 'equiaffine annotate FILE -o OUT.csv' fits the points"},
+     {VIEW, "--html", "name the page with -o PAGE.html"},
+     {VIEW, "--function", "for a formula use 'equiaffine mesh --function EXPR -o OUT.ply --html PAGE.html'"},
+     {VIEW, "--volume", "for a volume use 'equiaffine mesh --volume FILE -o OUT.ply --html PAGE.html'"},
+     {VIEW, "--fit", "for a fit use 'equiaffine mesh --fit FILE -o OUT.ply --html PAGE.html'"},
+     {VIEW, "--attributes", "view shows the attributes of the file; compute them with 'equiaffine annotate'"},
+     {EVALUATE, "--html", "evaluate writes only tables; for a page use mesh or annotate"},
+     {EVALUATE, "--png", "evaluate writes only tables; for a picture use mesh or annotate"},
+     {SAMPLE, "--html", "sample writes only volumes; for a page use 'equiaffine mesh' with the same source"},
+     {SAMPLE, "--png", "sample writes only volumes; for a picture use 'equiaffine mesh' with the same source"},
+     {SAMPLE, "--volume", "a volume is sampled already; to mesh it use 'equiaffine mesh --volume FILE -o OUT.ply'"},
+     {registering, "--points", "write FILE without an option, or --fit FILE"},
+     {registering, "--attributes", "maps have no attributes; compute those of a surface with 'equiaffine annotate'"}}};
 
 std::string first_source(const Command_line& line) { return line.has("FILE") ? line.word("FILE") : "SOURCE"; }
 
@@ -136,19 +136,19 @@ std::string suggestion(const std::string& word, const Words& candidates) {
 std::string advice_on_word(const Command_line& line, const std::string& word) {
   const Word_kind kind = kind_of(word);
   if (kind == Word_kind::PAGE)
-    return (line.command == VIEW ? "name the page by -o " : "name the page by --html ") + word;
-  if (kind == Word_kind::PICTURE) return "name the picture by --png " + word;
+    return (line.command == VIEW ? "name the page with -o " : "name the page with --html ") + word;
+  if (kind == Word_kind::PICTURE) return "name the picture with --png " + word;
   const bool is_surface = kind == Word_kind::MESH_FILE || kind == Word_kind::POINTS || kind == Word_kind::VOLUME_FILE;
   if (line.command == SYMMETRIES && (word == "to" || (is_surface && has_source(line))))
-    return "symmetries are those of one surface, and 'equiaffine register " + first_source(line) + " to " +
-           (is_surface ? word : "OTHER") + " -o MAP.json' finds maps between two";
+    return "symmetries takes one surface; for maps between two use 'equiaffine register " + first_source(line) +
+           " to " + (is_surface ? word : "OTHER") + " -o MAP.json'";
   if (!is_surface && line.has("function"))
-    return is_number(word) ? "" : "put the formula into quotes if it has spaces, --function 'x^2 + y^2 = 1'";
+    return is_number(word) ? "" : "quote a formula with spaces, for example --function 'x^2 + y^2 = 1'";
   if (!is_surface && kind != Word_kind::FORMULA) return {};
   if (line.command == REGISTER && is_surface)
-    return "one surface stands before the word 'to' and one after it: 'equiaffine register " + first_source(line) +
-           " to " + word + " -o MAP.json'";
-  if (has_source(line)) return !is_surface || line.has("output") ? "" : "name the output by -o " + word;
+    return "separate the two surfaces by the word 'to': 'equiaffine register " + first_source(line) + " to " + word +
+           " -o MAP.json'";
+  if (has_source(line)) return !is_surface || line.has("output") ? "" : "name the output with -o " + word;
   return advice_on_source(line.command, kind, word);
 }
 
@@ -162,28 +162,28 @@ std::string advice_on_option(Command command, const std::string& option) {
 std::string advice_on_command(const std::string& word) {
   const std::string output = " -o " + stem_of(word) + ".ply";
   switch (kind_of(word)) {
-  case Word_kind::MESH_FILE: return annotate(word, ".ply") + " computes at its vertices";
-  case Word_kind::POINTS: return annotate(word, ".csv") + " computes at its points";
-  case Word_kind::VOLUME_FILE: return "'equiaffine mesh --volume " + word + output + "' meshes it";
-  case Word_kind::FORMULA: return "'equiaffine mesh --function \"" + word + "\" --box ... -o OUT.ply' meshes it";
+  case Word_kind::MESH_FILE: return "to compute at its vertices, use " + annotate(word, ".ply");
+  case Word_kind::POINTS: return "to compute at its points, use " + annotate(word, ".csv");
+  case Word_kind::VOLUME_FILE: return "to mesh it, use 'equiaffine mesh --volume " + word + output + "'";
+  case Word_kind::FORMULA: return "to mesh it, use 'equiaffine mesh --function \"" + word + "\" --box ... -o OUT.ply'";
   default: return {};
   }
 }
 
 void check_is_no_formula(const std::string& path) {
   if (kind_of(path) == Word_kind::FORMULA)
-    throw Input_error("'" + path + "' is no file with a surface; write --function '" + path + "' for a formula");
+    throw Input_error("'" + path + "' is not a file; write --function '" + path + "' for a formula");
 }
 
 void check_is_annotatable(const std::string& path) {
   const Word_kind kind = kind_of(path);
   const std::string output = " -o " + stem_of(path) + ".ply'";
   if (kind == Word_kind::FORMULA)
-    throw Input_error("'" + path + "' is no file with points; use 'equiaffine mesh --function \"" + path +
+    throw Input_error("'" + path + "' is not a file; use 'equiaffine mesh --function \"" + path +
                       "\" --box ... -o OUT.ply' for a formula");
   if (kind == Word_kind::VOLUME_FILE && file_format(path) != File_format::UNNAMED)
     throw Input_error("cannot annotate '" + path + "': a volume has no vertices; use 'equiaffine mesh --volume " +
-                      path + output + " and --level for another level than 0");
+                      path + output + ", with --level for a level other than 0");
 }
 
 void check_is_viewable(const std::string& path) {
@@ -197,7 +197,7 @@ void check_is_viewable(const std::string& path) {
                       " for the surface through them");
   if (kind == Word_kind::VOLUME_FILE && file_format(path) != File_format::UNNAMED)
     throw Input_error("cannot show '" + path + "': a volume has no mesh; use 'equiaffine mesh --volume " + path +
-                      outputs + " and --level for another level than 0");
+                      outputs + ", with --level for a level other than 0");
 }
 
 } // namespace equiaffine

@@ -47,7 +47,7 @@ Mesh extract(const Source_function& function, const Source_options& options, Pro
   return surface;
 }
 
-/// Throws the error that says so if no point of the data is in the box.
+/// Throws if no point of the data is in the box.
 void check_box(const Source_function& function, const std::vector<Kernel::Point_3>& points,
                const Source_options& options) {
   const CGAL::Bbox_3 box = std::visit([](const auto& f) { return f.bbox(); }, function);
@@ -116,7 +116,7 @@ internal::Surface_to_register make_surface_of_any_scale(Source_options options, 
 
 namespace {
 
-/// Several meshes as one, with columns for all.
+/// Joins meshes into one, with common columns.
 class Joined_meshes {
 public:
   void add(const Mesh& mesh, double number, std::vector<double> distances) {
@@ -135,7 +135,7 @@ private:
   Annotated_mesh_3<Kernel> result_ = {{}, {{{"distance", {}}, {"surface", {}}}, {}}};
 };
 
-/// Adds the frames of the pair as arrows, the longest one of a fifth of the diagonal.
+/// Adds the frames of the pair as arrows; the longest has 1/5 of the diagonal.
 void add_frames(const Registered_map_3<Kernel>& registered, double diagonal, Joined_meshes& all) {
   const auto& [points, frames] = *registered.pair;
   const Point p = registered.map(points[0]), q = points[1];

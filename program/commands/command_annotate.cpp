@@ -35,7 +35,7 @@ Description make_description(const Request& options, const Annotation_statistics
                              const Description& fit) {
   Description description = {{"Vertices of", statistics.source}};
   if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
-    description.emplace_back("Normals", "against those of the data");
+    description.emplace_back("Normals", "opposite to those of the data");
   description.emplace_back("Vertices", std::to_string(statistics.vertices));
   description.emplace_back("Triangles", std::to_string(statistics.faces));
   description.emplace_back("Components", std::to_string(statistics.topology.components));
@@ -57,7 +57,8 @@ void check_has_faces(const Request& options, const std::string& name,
                      const Indexed_triangle_mesh_3<Kernel>& mesh) {
   if (options.display.html && mesh.triangles.empty())
     throw Input_error("cannot show '" + name + "': it has no faces; use --png instead of --html, or show the surface " +
-                      "through the points by 'equiaffine mesh --fit " + options.input + " -o OUT.ply --html PAGE.html'");
+                      "through the points with 'equiaffine mesh --fit " + options.input +
+                      " -o OUT.ply --html PAGE.html'");
 }
 
 } // namespace

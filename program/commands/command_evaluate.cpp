@@ -21,7 +21,7 @@ namespace equiaffine {
 
 namespace {
 
-/// Makes points with infinite or NaN coordinates OUTSIDE, whatever the function returns for them.
+/// Marks points with infinite or NaN coordinates as OUTSIDE, whatever the function returns for them.
 void mark_points_at_infinity(std::span<const Kernel::Point_3> points, Vertex_attributes& attributes) {
   if (!attributes.status) return;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -36,7 +36,8 @@ Mesh_format output_format(const std::string& path) {
   if (path == "-") return Mesh_format::CSV;
   const std::optional<Mesh_format> format = mesh_format(path);
   if (format != Mesh_format::CSV && format != Mesh_format::PLY)
-    throw Input_error("cannot write '" + path + "': its extension is not that of a table of points; use .csv or .ply");
+    throw Input_error("cannot write '" + path +
+                      "': the extension does not belong to a table of points; use .csv or .ply");
   return *format;
 }
 
@@ -73,7 +74,7 @@ void run_evaluate(const Request& options, std::ostream& out, Progress& progress)
     warn_of_outside(options.source, source, count(*attributes.status)[std::size_t(Point_status::OUTSIDE)],
                     points.size(), "points", progress);
   if (options.output == "-") return;
-  out << points.size() << " points";
+  out << points.size() << (points.size() == 1 ? " point" : " points");
   if (attributes.status) {
     const auto counts = count(*attributes.status);
     for (std::size_t i = 0; i < counts.size(); ++i)

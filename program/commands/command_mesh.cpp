@@ -25,8 +25,8 @@ namespace equiaffine {
 
 namespace {
 
-/// Work that one of the threads that TBB may use does while this thread goes on. Where there are no others, it is done
-/// at once or by wait().
+/// Work for another thread of TBB while this thread continues. Without other threads it is done immediately or in
+/// wait().
 class Background_work {
 public:
   Background_work() = default;
@@ -35,7 +35,7 @@ public:
   ~Background_work() {
     try {
       wait();
-    } catch (...) { // there is an exception already, or nobody has waited for the result
+    } catch (...) { // another exception is active, or the result was not needed
     }
   }
 
@@ -49,7 +49,7 @@ public:
 #endif
   }
 
-  /// Waits for all work that was started, and throws the exception that ended it, if one did.
+  /// Waits for all started work, and rethrows its exception, if any.
   void wait() {
 #ifdef CGAL_LINKED_WITH_TBB
     tasks_.wait();
@@ -85,7 +85,7 @@ Statistics make_statistics(const Request& options, const Annotated_surface& surf
   return statistics;
 }
 
-/// The rows of the matrix, and the translation if there is one.
+/// The rows of the matrix, and the translation if it is not zero.
 std::string text_of(const CGAL::Aff_transformation_3<Kernel>& map) {
   std::string text;
   bool has_translation = false;
@@ -95,7 +95,8 @@ std::string text_of(const CGAL::Aff_transformation_3<Kernel>& map) {
     has_translation = has_translation || map.m(row, 3) != 0;
   }
   if (has_translation)
-    text += ", then by " + number_text(map.m(0, 3)) + " " + number_text(map.m(1, 3)) + " " + number_text(map.m(2, 3));
+    text += ", then translated by " + number_text(map.m(0, 3)) + " " + number_text(map.m(1, 3)) + " " +
+            number_text(map.m(2, 3));
   return text;
 }
 
@@ -107,7 +108,7 @@ Description make_description(const Request& options, const Statistics& statistic
     description.emplace_back("transformed by", text_of(*map));
   }
   if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
-    description.emplace_back("Normals", "against the gradient");
+    description.emplace_back("Normals", "opposite to the gradient");
   description.emplace_back("Vertices", std::to_string(statistics.vertices));
   description.emplace_back("Triangles", std::to_string(statistics.faces));
   description.emplace_back("Components", std::to_string(statistics.topology.components) + left_out_text(statistics));
@@ -119,7 +120,9 @@ Description make_description(const Request& options, const Statistics& statistic
 std::string summary(const Parabolic_curves_3<Kernel>& curves) {
   const std::size_t n = curves.polylines.size();
   std::string text = std::to_string(n) + (n == 1 ? " parabolic curve" : " parabolic curves");
-  if (curves.unconverged_points > 0) text += ", " + std::to_string(curves.unconverged_points) + " points unconverged";
+  if (curves.unconverged_points > 0)
+    text += ", " + std::to_string(curves.unconverged_points) +
+            (curves.unconverged_points == 1 ? " unconverged point" : " unconverged points");
   return text + '\n';
 }
 
@@ -134,13 +137,13 @@ Outputs outputs_of_mesh(const Request& options) {
   return outputs;
 }
 
-/// Whether a single file of vertices is all that needs the attributes, so that nobody has to keep them.
+/// Whether only one file of vertices needs the attributes, so that they need not be kept in memory.
 bool are_attributes_only_written(const Request& options) {
   return is_written_in_parts(options.output) && options.source.kind != Source_kind::FIT &&
          !options.source.estimates_errors && !options.display.shows_something() && !options.parabolic_curves;
 }
 
-/// Computes the attributes of a surface, and writes those of some vertices while those of the next ones are computed.
+/// Computes the attributes in blocks of vertices, and writes each block while the next one is computed.
 void write_computed_attributes(Output_file& file, const Source& source, const Request& options,
                                Annotated_surface& surface) {
   constexpr std::size_t vertices_of_block = std::size_t(1) << 19;

@@ -32,7 +32,7 @@ Outputs outputs_of_maps(const Request& options) {
   return outputs;
 }
 
-/// The distances of points from the moved source, or the source as it is if there is no map, and from the target.
+/// The distances of points from the moved source (unmoved if there is no map) and from the target.
 std::array<Distances_of_points, 2> distances_from_surfaces(const internal::Registration_of_surfaces& found) {
   const auto& [source, target, registration] = found;
   const Map map = registration.found() ? registration.best().map : Map(CGAL::IDENTITY);
@@ -82,7 +82,7 @@ void run_symmetries(const Request& options, std::ostream& out, Progress& progres
     const auto [mesh, attributes] = found.shown();
     if (!options.display.arrows.empty() && !vector_columns(attributes, options.display.arrows))
       throw Input_error(option_text("arrows") + ": there is no vector '" + options.display.arrows +
-                        "'; a continuous symmetry has generator1, and more of them if there are more dimensions");
+                        "'; continuous symmetries have generator1, generator2 and so on, one per dimension");
     const Display_request display = display_of(report, options.display);
     write_displays(
         outputs, mesh, attributes, display,

@@ -29,7 +29,7 @@ void check_color(const std::string& color, const Vertex_attributes& attributes) 
   std::string names;
   for (const auto& column : attributes.columns) names += column.name + ' ';
   throw Input_error(option_text("color") + ": the mesh has no attribute '" + color + "'; use one of " + names +
-                    "or plain");
+                    "plain");
 }
 
 void check_arrows(const std::string& arrows, const Vertex_attributes& attributes) {
@@ -46,10 +46,10 @@ Outputs show(const Annotated_mesh_3<Kernel>& surface, const std::string& name, c
   outputs.add_displays(options.display);
   if (options.display.html && surface.mesh.triangles.empty())
     throw Input_error("cannot show '" + name + "': it has no faces; " +
-                      by_front_end("--png draws the points, and 'equiaffine mesh --fit " + options.input +
-                                       " -o OUT.ply --html PAGE.html' shows",
-                                   "a .png draws the points, and fit(V).mesh() has") +
-                      " the surface through the points");
+                      by_front_end("draw the points with --png, or show the surface through them with 'equiaffine "
+                                   "mesh --fit " +
+                                       options.input + " -o OUT.ply --html PAGE.html'",
+                                   "draw the points into a .png, or show fit(V).mesh(), the surface through them"));
   check_color(options.display.color, surface.attributes);
   check_arrows(options.display.arrows, surface.attributes);
   const Description fit = description_of_fit(surface.attributes);

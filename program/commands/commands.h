@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The program, its commands, and those parts of them that bindings call, too.
+// The program, its commands, and the parts of them that bindings call.
 #ifndef EQUIAFFINE_PROGRAM_COMMANDS_COMMANDS_H
 #define EQUIAFFINE_PROGRAM_COMMANDS_COMMANDS_H
 
@@ -16,20 +16,20 @@
 
 namespace equiaffine {
 
-/// The streams for texts that people read. Data for standard output are written elsewhere.
+/// The streams for messages. Data for standard output are written elsewhere.
 struct Streams {
   std::ostream& out;
   std::ostream& error;
   bool error_is_terminal = false; ///< if true, a long computation shows its progress there
 };
 
-/// Runs the program with the arguments (without the program's name) and returns the exit status. It is 0 for success, 2
-/// for an error of the user, which is written to `error` in one line, or in more lines if they show the place, and 1
-/// for a defect of the program.
+/// Runs the program with the arguments (without the program's name) and returns the exit status: 0 for success; 2 for
+/// an error of the user, which is written to `error` in one line, plus an excerpt of the input if it helps; 1 for a
+/// defect of the program.
 int run(const std::vector<std::string>& arguments, const Streams& streams);
 
-// Each command writes its outputs, all of them or none, and on `out` a summary unless an output goes there. They throw
-// Input_error.
+// Each command writes all its outputs or none, and a summary to `out` unless an output goes to standard output. They
+// throw Input_error.
 void run_mesh(const Request& options, std::ostream& out, Progress& progress);
 void run_evaluate(const Request& options, std::ostream& out, Progress& progress);
 void run_sample(const Request& options, std::ostream& out, Progress& progress);
@@ -38,13 +38,13 @@ void run_register(const Request& options, std::ostream& out, Progress& progress)
 void run_symmetries(const Request& options, std::ostream& out, Progress& progress);
 void run_view(const Request& options, std::ostream& out);
 
-/// The attributes of a source at the points of a mesh, or at points alone, and the estimates that are asked for. Points
-/// at infinity are OUTSIDE.
+/// The attributes of a source at the points of a mesh, or at points alone, and the requested estimates. Points at
+/// infinity are OUTSIDE.
 Vertex_attributes evaluate_points(const Request& options, const Source& source,
                                   const Indexed_triangle_mesh_3<Kernel>& at, Progress& progress);
 
-/// Writes the page and the picture that are asked for of a mesh of that name, and returns them. Throws `Input_error`,
-/// also for a mesh without faces, and for an attribute that it has not.
+/// Writes the requested page and picture of a mesh, and returns them. Throws `Input_error`, also for a page of a mesh
+/// without faces, and for a missing attribute.
 Outputs show(const Annotated_mesh_3<Kernel>& surface, const std::string& name, const Request& options);
 
 } // namespace equiaffine

@@ -42,8 +42,7 @@ Isosurface_3<Kernel> extract_surface(const Source_function& function, double iso
 
 namespace {
 
-/// The least and the greatest value of f at the nodes of a grid. If all values are NaN, they are infinity and
-/// -infinity.
+/// The minimum and maximum of f at the nodes of a grid; infinity and -infinity if all values are NaN.
 template <class Traits>
 std::pair<double, double> range_on_grid(const Traits& function) {
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
@@ -73,8 +72,8 @@ double size_at(const Any_function_3& f, const Kernel::Point_3& p) {
   return std::isnan(size) ? std::numeric_limits<double>::infinity() : size;
 }
 
-/// A place near p where |f| is least: a search in steps along the axes that become shorter, within the box of f. It
-/// ends after `most_rounds`, since along a curved valley steps would hardly become shorter.
+/// A local minimum of |f| near p, within the box of f, by a compass search along the axes. Ends after `most_rounds`,
+/// since steps hardly become shorter in a curved valley.
 Kernel::Point_3 least_near(const Any_function_3& f, Kernel::Point_3 p) {
   constexpr double first_step = 1. / 32, shortest_step = 1e-12; // in sides of the box
   constexpr int most_rounds = 2000;
@@ -95,8 +94,8 @@ Kernel::Point_3 least_near(const Any_function_3& f, Kernel::Point_3 p) {
   return p;
 }
 
-/// Returns a clause that names zeros beside which f is of one sign. It is empty if f has both signs at the nodes of a
-/// grid, or if no zero to within rounding was found from the nodes where |f| is least.
+/// Returns a clause about zeros where f does not change its sign. It is empty if f has both signs at the nodes of a
+/// grid, or if searches from the nodes of least |f| find no zero up to rounding.
 std::string zeros_without_change_of_sign(const Any_function_3& f) {
   constexpr std::size_t starts = 20;
   constexpr double rounding = 1e-14;
@@ -110,7 +109,7 @@ std::string zeros_without_change_of_sign(const Any_function_3& f) {
   const auto [least, greatest] = std::minmax_element(nodes.begin(), nodes.end(), by_value);
   if (values[*least] < 0 && values[*greatest] > 0) return {};
   const double size = std::max(-values[*least], values[*greatest]);
-  if (size == 0) return "f is that at all nodes of a grid";
+  if (size == 0) return "f has this value at all nodes of a grid";
   const auto last = nodes.begin() + std::ptrdiff_t(std::min(starts, nodes.size()));
   std::partial_sort(nodes.begin(), last, nodes.end(),
                     [&](std::size_t m, std::size_t n) { return std::abs(values[m]) < std::abs(values[n]); });
@@ -121,29 +120,29 @@ std::string zeros_without_change_of_sign(const Any_function_3& f) {
     if (size_at(f, p) > rounding * size) continue;
     std::ostringstream text;
     text.precision(3);
-    text << "f has zeros without a change of sign, as near " << p;
+    text << "f touches this value without crossing it, for example near " << p;
     return text.str();
   }
   return {};
 }
 
-/// Throws the error that says why a fit has no surface, and what to choose instead: it has one beside the data only.
+/// The same for a fit, which has a surface only near its data.
 [[noreturn]] void fail_without_surface_of_fit(const Fit_traits& fit, const Source_options& source, double isovalue,
-                                              const Vain_search& search) {
+                                              const Failed_search& search) {
   const CGAL::Bbox_3 box = fit.bbox(), band = fit.band_box();
   const std::string fitted = describe(source);
   std::ostringstream text;
   if (!CGAL::do_overlap(box, band)) {
     text << "no part of " << fitted << " is in the " << search.place << ": it lies in " << band.xmin() << ' '
          << band.xmax() << ' ' << band.ymin() << ' ' << band.ymax() << ' ' << band.zmin() << ' ' << band.zmax()
-         << "; choose a " << option_text("box") << " that meets that, or leave it out";
+         << "; choose a " << option_text("box") << " that overlaps this one, or leave it out";
   } else if (isovalue != 0) {
     text << "no surface f = " << isovalue << ": " << fitted
-         << " is about the distance from the data, and known within some two spacings of them only; choose a "
+         << " approximates the distance from the data, and is defined only within about two spacings of them; choose a "
          << option_text("level") << " nearer to 0, or leave it out";
   } else {
     text << "no part of the surface of " << fitted << " was found in the " << search.place << "; choose a "
-         << option_text("box") << " that has more of the data, or "
+         << option_text("box") << " that contains more of the data, or "
          << (search.refinement.empty() ? "leave it out" : search.refinement);
   }
   throw Input_error(text.str());
@@ -160,14 +159,14 @@ bool changes_sign_at_poles_only(const Traits& function) {
 } // namespace
 
 bool changes_sign_at_poles_only(const Source_function& function, double isovalue) {
-  // Splines have the grid of their samples, which a function of any type does not know.
+  // Any_function_3 would hide the sample grid of a spline.
   if (const auto* const spline = std::get_if<Spline_function>(&function))
     return changes_sign_at_poles_only(Level_set_traits_3(*spline, isovalue));
   return changes_sign_at_poles_only(any_level_set(function, isovalue));
 }
 
 void fail_without_surface(const Source_function& function, const Source_options& source, double isovalue,
-                          const Vain_search& search) {
+                          const Failed_search& search) {
   if (const auto* const fit = std::get_if<Fit_function>(&function))
     fail_without_surface_of_fit(fit->base(), source, isovalue, search);
   const auto [least, greatest] = std::visit([](const auto& f) { return range_on_grid(f); }, function);
@@ -182,16 +181,16 @@ void fail_without_surface(const Source_function& function, const Source_options&
        << " in the " << search.place << ": ";
   if (!zeros.empty()) text << zeros;
   else if (is_defined)
-    text << "at the nodes of a grid f" << (may_be_erased ? ", smoothed," : "") << " lies between " << least << " and "
-         << greatest;
+    text << "at the nodes of a grid " << (may_be_erased ? "the smoothed f" : "f") << " lies between " << least
+         << " and " << greatest;
   else text << "at the nodes of a grid f is undefined";
-  if (source.narrow_band) text << " in the band of " << option_text("narrow_band") << ' ' << *source.narrow_band;
-  if (search.met_poles) text << ", and changes its sign at poles or jumps only";
+  if (source.narrow_band) text << " within " << option_text("narrow_band") << ' ' << *source.narrow_band;
+  if (search.met_poles) text << ", and crosses this value only at poles or jumps";
   text << "; choose ";
-  if (!zeros.empty()) text << "another " << option_text("level") << ", or a function that changes its sign there";
+  if (!zeros.empty()) text << "another " << option_text("level") << ", or a function that crosses it";
   else if (may_help && has_both_signs) text << search.refinement;
   else
-    text << (may_be_erased ? "a smaller " + option_text("smoothing") + ", which erases what is thin, " : "")
+    text << (may_be_erased ? "a smaller " + option_text("smoothing") + ", which keeps thin parts, " : "")
          << (source.narrow_band ? "a wider band, " : "") << "another " << option_text("level") << " or box"
          << (may_help ? ", or " + search.refinement : "");
   throw Input_error(text.str());

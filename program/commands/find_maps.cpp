@@ -36,7 +36,7 @@ Registration_report report_of(const Request& options, const internal::Registrati
 
 namespace {
 
-/// The triangles of the file that the source names, none if it has no faces.
+/// The mesh of the source's file.
 Indexed_triangle_mesh_3<Kernel> read_triangles(const Source_options& source, Progress& progress) {
   progress.begin("reading the mesh");
   Indexed_triangle_mesh_3<Kernel> mesh = read_vertices(source).mesh;
@@ -81,8 +81,8 @@ Symmetries_report report_of(const Request& options, const Found_symmetries& foun
   Symmetries_report report = {found.name(options.source), found.symmetries, options.symmetries.complete,
                               keeps_angles(found.symmetries.kind) && !keeps_angles(options.symmetries.kind)};
   if (!std::isfinite(report.symmetries.maps.front().rms))
-    throw Input_error("nothing is known of the symmetries of " + report.source +
-                      ": it has a surface beside none of its points; give more points");
+    throw Input_error("cannot find symmetries of " + report.source +
+                      ": the fit has no surface near any of its points; give more points");
   return report;
 }
 

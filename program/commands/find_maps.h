@@ -18,16 +18,16 @@ namespace equiaffine {
 /// Makes the surfaces, and finds the map between them. Throws `Input_error`.
 internal::Registration_of_surfaces find_map(const Request& options, Progress& progress);
 
-/// Returns the report on it.
+/// Returns the report on the map.
 Registration_report report_of(const Request& options, const internal::Registration_of_surfaces& found);
 
-/// A surface whose symmetries are sought, and what was found.
+/// A surface and its symmetries.
 struct Found_symmetries {
   Symmetries symmetries;
   Indexed_triangle_mesh_3<Kernel> mesh;
   std::optional<internal::Surface_to_register> level_set; ///< unless the mesh is the surface
 
-  /// Returns the name of the surface for people.
+  /// The name of the surface in reports.
   std::string name(const Source_options& source) const;
 
   /// The surface with marks of the symmetries.
@@ -37,7 +37,7 @@ struct Found_symmetries {
 /// Makes the surface, and finds its symmetries. Throws `Input_error`.
 Found_symmetries find_symmetries(const Request& options, Progress& progress);
 
-/// Returns the report on them. Throws `Input_error` if nothing is known of the surface.
+/// Returns the report on the symmetries. Throws `Input_error` if the fit has no surface near its points.
 Symmetries_report report_of(const Request& options, const Found_symmetries& found);
 
 } // namespace equiaffine

@@ -33,31 +33,31 @@ namespace {
 
 constexpr const char* extracting = "extracting the surface";
 
-/// Throws `Input_error` if `delaunay_surface` would refuse the box.
+/// Throws `Input_error` if `delaunay_surface` would reject the box.
 void check_box_of_delaunay_surface(const CGAL::Bbox_3& box) {
   const internal::Delaunay_range range(box);
   if (range.has_box()) return;
   std::ostringstream text;
-  text << "the box of the function has the diagonal " << range.diagonal() << ", and coordinates to "
-       << std::max(range.diagonal(), range.greatest_coordinate()) << "; " << option_text("method", "delaunay")
-       << " works with numbers from " << internal::Delaunay_range::least << " to " << internal::Delaunay_range::greatest
-       << ": choose another unit";
+  text << "the box of the function has the diagonal " << range.diagonal() << " and coordinates up to "
+       << std::max(range.diagonal(), range.greatest_coordinate()) << ", and " << option_text("method", "delaunay")
+       << " needs numbers from " << internal::Delaunay_range::least << " to " << internal::Delaunay_range::greatest
+       << "; choose another unit";
   throw Input_error(text.str());
 }
 
-/// Throws `Input_error` if `delaunay_surface` would refuse the radius.
+/// Throws `Input_error` if `delaunay_surface` would reject the radius.
 void check_radius_of_delaunay_surface(const CGAL::Bbox_3& box, double radius) {
   const internal::Delaunay_range range(box);
   if (radius >= range.least_radius()) return;
   std::ostringstream text;
-  text << "a radius of " << radius << " is too small beside coordinates to " << range.greatest_coordinate()
-       << ", which takes " << range.least_radius() << ": choose a larger " << option_text("radius")
+  text << "a radius of " << radius << " is too small for coordinates up to " << range.greatest_coordinate()
+       << ", which need at least " << range.least_radius() << "; choose a larger " << option_text("radius")
        << ", or an origin nearer to the box";
   throw Input_error(text.str());
 }
 
-/// Says how long a stage will take that calls `run(options)` for the grid of the source, if that is minutes. It is
-/// called for coarser grids here.
+/// Announces the duration of a stage that calls `run(options)` on the grid of the source, if it takes minutes. Calls it
+/// on coarser grids.
 template <class Run>
 void announce_duration_on_grid(const std::string& stage, const Source_options& options, Progress& progress,
                                const Run& run) {
@@ -73,8 +73,8 @@ void announce_duration_on_grid(const std::string& stage, const Source_options& o
   });
 }
 
-/// Samples the surface; annotated_surface() adds attributes. The mesh is made from f whatever the orientation is, which
-/// then only decides to which side triangles are turned.
+/// Samples the surface; annotated_surface() adds attributes. The mesh does not depend on the orientation of the level
+/// set; annotated_surface() flips the triangles.
 Annotated_surface sample_on_grid(const Source_function& function, const Request& options, Progress& progress) {
   const auto extract = [&](const Source_options& source) {
     return extract_surface(function, options.source.level, source, options.marching_cubes.vertices);
@@ -98,7 +98,7 @@ Annotated_surface sample_by_delaunay(const Source_function& function, const Requ
   const Clip_domain_3 domain = clip_domain(options.delaunay.clip, box);
   check_box_of_delaunay_surface(domain.bbox());
   Delaunay_options delaunay = options.delaunay;
-  if (delaunay.radius) delaunay.radius = std::min(*delaunay.radius, diagonal); // a larger bound would mean the same
+  if (delaunay.radius) delaunay.radius = std::min(*delaunay.radius, diagonal); // a larger bound has no effect
   delaunay = delaunay.completed(box);
   const double radius = *delaunay.radius, distance = *delaunay.distance;
   check_memory_of_delaunay_surface(diagonal, radius, distance, options.source.memory_use);
@@ -127,7 +127,7 @@ Annotated_surface sample_by_delaunay(const Source_function& function, const Requ
   return surface;
 }
 
-/// The faces of the data of a fit, remeshed, or the reason why they are not although nothing else was asked for.
+/// The remeshed faces of the data of a fit, or the reason why they could not be remeshed by default.
 struct Remesh {
   std::optional<Remeshed_fit> fit;
   std::string reason_against;
@@ -144,7 +144,7 @@ Remesh remesh_of_source(Source& source, const Request& options, Progress& progre
   }
 }
 
-/// Samples the surface by the method that was asked for, if it is no remesh.
+/// Samples the surface by the requested method, or takes the remesh.
 Annotated_surface sample(const Source_function& function, const Request& options, Remesh remesh,
                          Progress& progress) {
   if (remesh.fit) {
@@ -181,7 +181,7 @@ Annotated_surface annotated_surface(const Source& source, const Request& options
       surface.close_sheets = source.fit->close_sheets(longest_step(source.fit->bbox(), options.source));
   }
   if (options.largest) surface.components_left_out = keep_largest(surface.mesh, *options.largest, surface.outcomes);
-  if (surface.components_left_out > 0) surface.curves.reset(); // they are found anew, on what is left
+  if (surface.components_left_out > 0) surface.curves.reset(); // computed below for the remaining components
   if (options.orientation == Orientation_of_level_set::AGAINST_GRADIENT)
     for (auto& triangle : surface.mesh.triangles) std::swap(triangle[1], triangle[2]);
   if (time == Attribute_time::LATER) return surface;
@@ -243,7 +243,7 @@ void warn_of(const Annotated_surface& surface, const Source& source, const Reque
   if (has_curvatures && source.spline && options.source.kind == Source_kind::VOLUME)
     warn_of_steps(*source.spline, progress);
   if (!surface.reason_against_remesh.empty())
-    progress.warn("the faces are not remeshed, and Marching Cubes makes others: " + surface.reason_against_remesh);
+    progress.warn("cannot remesh the faces; Marching Cubes is used instead: " + surface.reason_against_remesh);
   if (surface.close_sheets) warn_of_close_sheets(*surface.close_sheets, progress);
   if (surface.estimates.fit)
     warn_of_doubt(*surface.estimates.fit, options.source.fit,

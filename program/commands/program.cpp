@@ -25,7 +25,7 @@ namespace equiaffine {
 namespace {
 
 #ifdef CGAL_LINKED_WITH_TBB
-/// No more threads than these compute while what it returns lives.
+/// Limits the number of threads during the lifetime of the result.
 auto limit_threads(std::size_t threads) {
   return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
 }
@@ -33,7 +33,7 @@ auto limit_threads(std::size_t threads) {
 std::unique_ptr<int> limit_threads(std::size_t) { return nullptr; } // without TBB there is one thread
 #endif
 
-/// The folder of the output, or that for temporary files.
+/// The folder of the output, or of temporary files for standard output.
 std::filesystem::path folder_of_output(const Request& request) {
   if (request.output == "-") return std::filesystem::temp_directory_path();
   const auto folder = std::filesystem::path(request.output).parent_path();
@@ -44,8 +44,8 @@ void run_command(const Request& request, const Streams& streams) {
   if (request.information) {
     streams.out << *request.information << std::flush;
     if (!streams.out)
-      throw Input_error("cannot write standard output: not everything was accepted; make sure that the receiver is "
-                        "ready");
+      throw Input_error("cannot write standard output: it does not accept all data; check the receiving program or "
+                        "device");
     return;
   }
   if (request.memory) limit_resident_memory(*request.memory, folder_of_output(request));
@@ -62,9 +62,9 @@ void run_command(const Request& request, const Streams& streams) {
   }
 }
 
-/// Says what to do where a command needs too much memory.
+/// What to do if a command needs too much memory.
 std::string advice_on_memory(const std::optional<Request>& request) {
-  if (!request) return "end other programs";
+  if (!request) return "close other programs";
   switch (request->command) {
   case MESH: return "use a smaller --resolution, input or --size, or a larger --radius";
   case SAMPLE: return "use a smaller --resolution";
@@ -74,7 +74,7 @@ std::string advice_on_memory(const std::optional<Request>& request) {
   }
 }
 
-/// Reports the text in one line, even if it has several.
+/// Reports the text in one line, even if it has line breaks.
 void report(std::ostream& stream, const std::string& kind, const std::string& text) {
   stream << "equiaffine: " << kind << ": " << printable(text) << '\n';
 }
@@ -98,8 +98,7 @@ int run(const std::vector<std::string>& arguments, const Streams& streams) {
            lack_of_room_for_scratch_memory() + ", or " + advice_on_memory(request));
     return error_of_user;
   } catch (const std::bad_alloc&) {
-    report(streams.error, "error",
-           "the memory of this computer is not enough; " + advice_on_memory(request));
+    report(streams.error, "error", "not enough memory; " + advice_on_memory(request));
     return error_of_user;
   } catch (const std::length_error& error) {
     report(streams.error, "error", error.what() + ("; " + advice_on_memory(request)));

@@ -27,12 +27,12 @@ using Outcomes = Mesh::Property_map<Mesh::Vertex_index, Fit_outcome>;
 
 Mesh mesh_of_data(const Indexed_triangle_mesh_3<Kernel>& data, const Source_options& options) {
   if (data.triangles.empty())
-    throw Input_error(option_text("method", "remesh") + ": '" + options.text + "' has points without faces; use " +
+    throw Input_error(option_text("method", "remesh") + ": '" + options.text + "' has no faces; use " +
                       option_text("method", "marching-cubes") + ", or give a mesh");
   return to_surface(data, options.text);
 }
 
-/// The greatest distance of vertices with an outcome, or without it, from the data.
+/// The maximum distance from the data of the vertices that are on the fit, or of the others.
 double greatest_distance(const std::vector<double>& distances, const std::vector<double>& outcomes, bool is_on_fit) {
   double greatest = 0;
   for (std::size_t i = 0; i < distances.size(); ++i)
@@ -40,8 +40,7 @@ double greatest_distance(const std::vector<double>& distances, const std::vector
   return greatest;
 }
 
-/// Replaces the mesh of the data of a source by its remesh. The source becomes a fit at a smaller scale if that suits
-/// the shape better.
+/// Remeshes the data of a source. If a smaller scale suits the shape better, the source becomes the fit at that scale.
 Fit_remesh_report remesh(Mesh& mesh, const Outcomes& outcomes, Source& source, const Source_options& options,
                          Remesh_options how, Progress& progress) try {
   how.feature_angle = options.fit.feature_angle;
@@ -59,7 +58,7 @@ Fit_remesh_report remesh(Mesh& mesh, const Outcomes& outcomes, Source& source, c
     source = source_of_fit(Fit_traits(std::move(fit)), std::move(source.data), options);
   return report;
 } catch (const Input_error& error) {
-  throw Input_error("a remesh of the data: " + error.sentence());
+  throw Input_error("cannot remesh the data: " + error.sentence());
 }
 
 } // namespace

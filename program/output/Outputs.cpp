@@ -63,7 +63,7 @@ bool is_VTP(const std::string& path) { return file_format(path) == File_format::
 
 void check_output(const std::string& path, bool is_known, const std::string& known_extensions) {
   if (path == "-" || is_known) return;
-  throw Input_error("cannot write '" + path + "': its extension is not known; use one of " + known_extensions);
+  throw Input_error("cannot write '" + path + "': unknown extension; use one of " + known_extensions);
 }
 
 template <class Number>
@@ -79,7 +79,7 @@ std::size_t number_of_distinct(const std::vector<Kernel::Point_3>& points) {
 void check_format(const std::string& path, File_format right, const std::string& kind, const std::string& advised) {
   const File_format format = file_format(path);
   if (path == "-" || format == right || format == File_format::UNNAMED) return;
-  throw Input_error("cannot write '" + path + "': it is to be " + kind + "; give it the extension " + advised);
+  throw Input_error("cannot write '" + path + "': the extension does not belong to " + kind + "; use " + advised);
 }
 
 void check_surface_output(const std::string& path) {
@@ -88,7 +88,7 @@ void check_surface_output(const std::string& path) {
 
 void check_curves_output(const std::string& path) {
   if (is_VTP(path) && !has_vtk)
-    throw Input_error("cannot write '" + path + "': this equiaffine was built without VTK; use one of .obj");
+    throw Input_error("cannot write '" + path + "': this equiaffine was built without VTK; use .obj");
   check_output(path, file_format(path) == File_format::OBJ || is_VTP(path), curves_extensions);
 }
 
@@ -132,7 +132,7 @@ void warn_of_lost_points(const std::string& path, const std::vector<Kernel::Poin
   const std::size_t given = number_of_distinct<double>(points), left = number_of_distinct<float>(points);
   if (100 * (given - left) < given || given == left) return;
   progress.warn("STL has single precision, in which " + std::to_string(given - left) + " of " + std::to_string(given) +
-                " vertices are at the place of another; write .ply, .off or .obj, or move the surface to the origin");
+                " vertices coincide with others; write .ply, .off or .obj, or move the surface to the origin");
 }
 
 } // namespace equiaffine

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The output files of a command, and those of them that hold surfaces, points and curves.
+// The output files of a command, and writers of surfaces, points and curves.
 #ifndef EQUIAFFINE_PROGRAM_OUTPUT_OUTPUTS_H
 #define EQUIAFFINE_PROGRAM_OUTPUT_OUTPUTS_H
 
@@ -23,44 +23,44 @@ namespace equiaffine {
 /// The purposes of the files that commands write.
 enum class Output_kind { RESULT, PAGE, PICTURE, CURVES, MOVED, STATISTICS };
 
-/// The output files of a command, of which all appear or none.
+/// The output files of a command: all of them are written, or none.
 class Outputs {
 public:
   Outputs() = default;
 
-  /// Adds the result, then page and picture, as far as they are asked for.
+  /// Adds the result, then the page and the picture if requested.
   Outputs(const std::string& result, const Display_request& display);
 
-  /// Throws `Input_error` if the file cannot be written, which is to be known before a long computation. Without a path
-  /// there is no such output.
+  /// Adds an output if there is a path. Throws `Input_error` now, rather than after a long computation, if the file
+  /// cannot be written.
   void add(Output_kind kind, const std::optional<std::string>& path);
 
-  /// Adds page and picture, as far as they are asked for.
+  /// Adds the page and the picture if requested.
   void add_displays(const Display_request& options);
 
-  /// Forgets the file of that kind, if there is one, so that nothing is written.
+  /// Removes the output of this kind, if there is one.
   void remove(Output_kind kind);
 
-  /// The file of that kind, or null.
+  /// The file of this kind, or null.
   Output_file* find(Output_kind kind);
 
-  /// The file of that kind. \pre it was added.
+  /// The file of this kind. \pre it was added.
   Output_file& operator[](Output_kind kind) {
     CGAL_precondition(find(kind) != nullptr);
     return *find(kind);
   }
 
-  /// Ends writing to all files but that of the statistics, which tell how long it took.
+  /// Closes all files except the statistics, which contain the time of writing.
   void close_results();
 
-  /// Ends writing and puts all files in place. Throws `Input_error` if one could not be stored, and then leaves what
-  /// was there.
+  /// Closes all files and moves them into place. Throws `Input_error` if one could not be stored; existing files are
+  /// then unchanged.
   void commit();
 
-  /// Whether one of them is standard output, where nothing else may be written then.
+  /// Whether one of them is standard output, which must then contain nothing else.
   bool use_standard_output() const { return equiaffine::use_standard_output(files_); }
 
-  /// Tells people which files were written, in the order in which they were added, a line each.
+  /// Writes a line "wrote FILE" for each file, in the order in which they were added.
   void report(std::ostream& out) const { report_written(out, files_); }
 
 private:
@@ -68,37 +68,35 @@ private:
   std::vector<Output_file> files_;
 };
 
-/// Throws `Input_error` if the file has the extension of another format: what looks like a mesh is not to become a
-/// page.
+/// Throws `Input_error` if the path has the extension of another format, so that no page is written to a mesh's name.
 void check_format(const std::string& path, File_format right, const std::string& kind, const std::string& advised);
 
-/// Throws `Input_error` unless `write_surface` knows the extension of the path, or it is "-".
+/// Throws `Input_error` unless the path is "-" or `write_surface` supports its extension.
 void check_surface_output(const std::string& path);
 
 /// Writes the mesh in the format of the path's extension, OFF for "-", without committing.
 void write_surface(Output_file& file, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes);
 
-/// Throws `Input_error` unless `write_vertices` knows the extension of the path, or it is "-".
+/// Throws `Input_error` unless the path is "-" or `write_vertices` supports its extension.
 void check_vertices_output(const std::string& path);
 
-/// Writes a mesh or points as they came with more attributes in the format of the path's extension, CSV for "-",
-/// without committing. Computed columns replace those of the same name.
+/// Writes the unchanged input mesh or points with additional attributes in the format of the path's extension, CSV for
+/// "-", without committing. Computed columns replace those of the same name.
 void write_vertices(Output_file& file, const Point_table_3<Kernel>& table, const Vertex_attributes& attributes);
 
-/// Throws `Input_error` unless `write_curves` knows the extension of the path, or it is "-".
+/// Throws `Input_error` unless the path is "-" or `write_curves` supports its extension.
 void check_curves_output(const std::string& path);
 
 /// Writes the curves in the format of the path's extension, OBJ for "-", without committing.
 void write_curves(Output_file& file, const Parabolic_curves_3<Kernel>& curves);
 
-/// Throws `Input_error` if the path has an extension that is not .json.
+/// Throws `Input_error` if the path has an extension other than .json.
 void check_statistics_output(const std::string& path);
 
-/// Throws `Input_error` if the path has an extension that is not .json.
+/// Throws `Input_error` if the path has an extension other than .json.
 void check_maps_output(const std::string& path);
 
-/// Warns if the format of a file that the points of a mesh were written to cannot tell a hundredth of them from others:
-/// STL, which has single precision.
+/// Warns if at least 1 % of the points coincide with others in the precision of the file: STL has single precision.
 void warn_of_lost_points(const std::string& path, const std::vector<Kernel::Point_3>& points, Progress& progress);
 
 } // namespace equiaffine

@@ -19,10 +19,10 @@ namespace equiaffine {
 
 namespace {
 
-/// The length of base64 (RFC 4648, section 4) of so many bytes.
+/// The length of bytes in base64 (RFC 4648, section 4).
 std::size_t length_of_base64(std::size_t bytes) { return (bytes + 2) / 3 * 4; }
 
-/// Appends so many bytes as base64, padded if they are no multiple of three.
+/// Appends bytes as base64, padded to a multiple of three bytes.
 void append_base64(std::string_view bytes, std::string& text) {
   constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::size_t place = text.size(), n = 0;
@@ -39,7 +39,7 @@ void append_base64(std::string_view bytes, std::string& text) {
     text[place + digit] = digits[group >> (18 - 6 * digit) & 63];
 }
 
-/// The bytes of a number, the least significant one first.
+/// The bytes of a number, least significant first.
 template <class Number>
 std::array<char, sizeof(Number)> little_endian(Number number) {
   std::array<char, sizeof(Number)> bytes;
@@ -48,7 +48,7 @@ std::array<char, sizeof(Number)> little_endian(Number number) {
   return bytes;
 }
 
-/// A name as an attribute of XML has it.
+/// Escapes a name for an XML attribute.
 std::string xml_text(std::string_view name) {
   std::string text;
   for (const char c : printable(std::string(name)))
@@ -60,7 +60,7 @@ std::string xml_text(std::string_view name) {
   return text;
 }
 
-using Length = std::uint64_t; ///< of an array in bytes, stands before it
+using Length = std::uint64_t; ///< of an array in bytes, written before it
 
 constexpr std::size_t numbers_at_once = 6144; ///< a multiple of three
 
@@ -90,7 +90,7 @@ Vtp_writer::Vtp_writer(std::ostream& stream, std::size_t vertices, std::size_t f
   if (vertices == 0) write_vertices({}, layout);
 }
 
-/// Writes the text before an array, and leaves room for it.
+/// Writes the text before an array, and reserves space for the array.
 void Vtp_writer::begin_array(std::string_view type, std::string_view name, std::size_t numbers,
                              std::size_t size_of_number, std::size_t components) {
   text_.append("<DataArray type=\"").append(type).append("\" Name=\"").append(xml_text(name));

@@ -27,29 +27,28 @@ public:
   virtual void write_faces(const std::vector<std::array<std::uint32_t, 3>>& faces) = 0;
 };
 
-/// Whether the format of the file holds attributes and can be written part by part.
+/// Whether the format of the file has attributes and can be written part by part.
 bool is_written_in_parts(const std::string& path);
 
-/// A writer for such a file. `layout` has the names of the columns, and whether there is a status; what numbers it has
-/// does not matter.
+/// A writer for such a file. `layout` has the names of the columns, and a status if there is one; its values are not
+/// used.
 std::unique_ptr<Part_writer> part_writer(const std::string& path, std::ostream& stream, std::size_t vertices,
                                          std::size_t faces, const Vertex_attributes& layout);
 
-/// Writes a mesh as a VTK polydata file (VTK File Formats, "XML file formats"), part by part: all vertices in any
-/// number of parts, then all faces. There are points in double precision, triangles, a double point array per column
-/// and, if there is a status, an unsigned char array `status`. Arrays are not compressed, so that each one has its
-/// place before its numbers are known, and stand inline as base64: readers with a recent expat lose appended ones.
-/// Errors are in the state of the stream, in which the writer moves forwards and back.
+/// Writes a mesh as a VTK polydata file (VTK File Formats, "XML file formats"), part by part: points in double
+/// precision, triangles, a double point array per column and, if there is a status, an unsigned char array `status`.
+/// Arrays are not compressed, so that their positions are known in advance, and are inline base64: readers with a
+/// recent expat lose appended arrays. Errors are in the state of the stream, which must be seekable.
 class Vtp_writer : public Part_writer {
 public:
-  /// `layout` has the names of the columns, and whether there is a status; what numbers it has does not matter.
+  /// `layout` is as in part_writer().
   Vtp_writer(std::ostream& stream, std::size_t vertices, std::size_t faces, const Vertex_attributes& layout);
 
   void write_vertices(std::span<const Kernel::Point_3> points, const Vertex_attributes& attributes) override;
   void write_faces(const std::vector<std::array<std::uint32_t, 3>>& faces) override;
 
 private:
-  /// An array of the file, of which some bytes have been written.
+  /// An array of the file, partly written.
   struct Array {
     std::streamoff place; ///< of the next text
     std::string rest;     ///< bytes that do not yet fill a group of three
@@ -64,14 +63,14 @@ private:
   void write_faces_as(std::span<const std::array<std::uint32_t, 3>> faces);
 
   std::ostream& stream_;
-  std::string text_; ///< the text before, between and after the arrays, until it is written
+  std::string text_; ///< pending text before, between or after the arrays
   std::streamoff end_ = 0;
   std::vector<Array> arrays_; ///< the columns, the status if there is one, the points, and two for the faces
   std::size_t vertices_left_, columns_;
   bool has_status_;
 };
 
-/// Writes a VTK polydata file of curves: points in double precision, and a polyline for each curve; a closed one ends
+/// Writes curves as a VTK polydata file: points in double precision, and a polyline for each curve; a closed one ends
 /// with the index of its first point. Errors are in the state of the stream.
 void write_VTP(std::ostream& stream, const Parabolic_curves_3<Kernel>& curves);
 

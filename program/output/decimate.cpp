@@ -21,7 +21,7 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-/// Cells along an axis are numbered by so many bits.
+/// The number of bits of a cell's index along an axis.
 constexpr int bits = 21;
 constexpr double most_cells = (1 << bits) - 1;
 
@@ -41,8 +41,8 @@ std::vector<std::uint32_t> shown_vertices(const Indexed_triangle_mesh_3<Kernel>&
   return vertices;
 }
 
-/// The coordinates of some points where their box has its first corner at the origin and 1 as its longest side, so that
-/// no square of a length leaves the range of numbers.
+/// Maps the box of some points to one with its first corner at the origin and longest side 1, so that squared lengths
+/// do not overflow or underflow.
 class Unit_box {
 public:
   Unit_box(const Points& points, const std::vector<std::uint32_t>& some) {
@@ -57,7 +57,7 @@ public:
   }
 
 private:
-  /// A half of the vector, which is finite wherever its ends are.
+  /// Half of the vector, since the whole vector may overflow.
   Kernel::Vector_3 from_first_corner(const Kernel::Point_3& p) const {
     return {p.x() / 2 - box_.xmin() / 2, p.y() / 2 - box_.ymin() / 2, p.z() / 2 - box_.zmin() / 2};
   }
@@ -66,7 +66,7 @@ private:
   double side_ = 1;
 };
 
-/// The area of the triangles that have three finite corners.
+/// The area of the triangles with three finite corners.
 double area_of(const Indexed_triangle_mesh_3<Kernel>& mesh, const Unit_box& unit) {
   double area = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -77,7 +77,7 @@ double area_of(const Indexed_triangle_mesh_3<Kernel>& mesh, const Unit_box& unit
   return area;
 }
 
-/// The cell of a point among those of a grid with so many cells along the longest side of the box, as one number.
+/// The index of a point's cell in a grid with `cells` cells along the longest side of the box.
 std::uint64_t cell_of(const Kernel::Vector_3& p, double cells) {
   std::uint64_t cell = 0;
   for (int axis = 0; axis < 3; ++axis)
@@ -85,7 +85,7 @@ std::uint64_t cell_of(const Kernel::Vector_3& p, double cells) {
   return cell;
 }
 
-/// Vertices in clusters: the cluster that each vertex is in, or none, and the vertex that stands for each cluster.
+/// The cluster of each vertex, or none, and the representative vertex of each cluster.
 struct Clusters {
   std::vector<std::uint32_t> cluster_of, representative_of;
 };
@@ -118,7 +118,7 @@ Clusters clusters_of(const Points& points, const std::vector<std::uint32_t>& som
   return clusters;
 }
 
-/// The triangles between three clusters, each of them once. Those with a corner in no cluster are left out.
+/// The triangles between three different clusters, each once, without triangles with a corner in no cluster.
 Triangles triangles_between(const Clusters& clusters, const Triangles& triangles) {
   Triangles result;
   for (const auto& triangle : triangles) {
@@ -134,7 +134,7 @@ Triangles triangles_between(const Clusters& clusters, const Triangles& triangles
   return result;
 }
 
-/// The clusters that have a triangle, with the numbers of their representatives.
+/// The mesh of the representatives of clusters with a triangle, with their attributes.
 Displayed_mesh mesh_of(const Clusters& clusters, Triangles triangles, const Points& points,
                        const Vertex_attributes& attributes) {
   std::vector<std::uint32_t> number(clusters.representative_of.size(), none), kept;
@@ -175,10 +175,10 @@ Displayed_mesh decimate(const Indexed_triangle_mesh_3<Kernel>& mesh, const Verte
     clusters = clusters_of(mesh.points, shown, unit, cells);
     triangles = triangles_between(clusters, mesh.triangles);
   };
-  // A plane meets up to 1.7 cells per square of their side, and a cluster has two triangles.
+  // A plane meets up to 1.7 cells per squared cell size, and there are two triangles per cluster.
   double cells = std::clamp(std::sqrt(double(most_triangles) / (3.0 * area_of(mesh, unit))), 1.0, most_cells);
   cut(cells);
-  // This is too coarse where a few large triangles have most of the area.
+  // This is too coarse if a few large triangles have most of the area.
   while (triangles.size() < most_triangles / 3 && cells < most_cells) {
     cells = std::min(2 * cells, most_cells);
     cut(cells);

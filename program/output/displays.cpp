@@ -35,7 +35,7 @@ namespace {
 
 using Mappings = std::map<std::string, Color_mapping>;
 
-/// The JSON text in the element `facts` of the page; empty if there is none.
+/// The JSON text in the element `facts` of the page; empty if missing.
 std::string facts_of_page(std::istream& page) {
   constexpr std::size_t most = 100'000'000; // bytes before the end of that element
   const std::string begin = "<script type=\"application/json\" id=\"facts\">";
@@ -55,7 +55,7 @@ Color_scale scale_of(const std::string& word) {
   return Color_scale::LINEAR;
 }
 
-/// What the page shows first of that column. Throws an exception of the JSON library if it is no column of ours.
+/// The initial color mapping of a column of the page. Throws an exception of the JSON library if members are missing.
 Color_mapping mapping_of(const Json& column, const Json& facts) {
   const auto usual =
       std::size_t(std::find(clip_steps.begin(), clip_steps.end(), default_clip_percent) - clip_steps.begin());
@@ -72,7 +72,7 @@ Color_mapping mapping_of(const Json& column, const Json& facts) {
   return mapping;
 }
 
-/// Whether the numbers are such as a page of ours has, which may have been edited.
+/// Whether the mapping is consistent: the page may have been edited.
 bool is_valid(const Color_mapping& mapping) {
   const auto& [lower, upper, knee, is_diverging] = mapping.range;
   const auto& knots = mapping.equalization.knots();
@@ -81,7 +81,7 @@ bool is_valid(const Color_mapping& mapping) {
 }
 
 Mappings mappings_of_page(const std::string& path) {
-  const std::string advice = "; give a page that this program has written, or a .ply";
+  const std::string advice = "; give a page written by this program, or a .ply";
   std::ifstream file = open_input(path);
   Mappings mappings;
   try {
@@ -89,11 +89,11 @@ Mappings mappings_of_page(const std::string& path) {
     for (const Json& column : facts.at("columns")) {
       if (!column.contains("ranges")) continue;
       const Color_mapping mapping = mapping_of(column, facts);
-      if (!is_valid(mapping)) throw Input_error("cannot read '" + path + "': its colors are damaged" + advice);
+      if (!is_valid(mapping)) throw Input_error("cannot read '" + path + "': its color scales are invalid" + advice);
       mappings.emplace(column.at("name").get<std::string>(), mapping);
     }
   } catch (const Json::exception&) {
-    throw Input_error("cannot read '" + path + "': it has no ranges of colors" + advice);
+    throw Input_error("cannot read '" + path + "': it has no color scales" + advice);
   }
   return mappings;
 }
@@ -102,7 +102,7 @@ Mappings mappings_of_file(const std::string& path) {
   const File_format format = file_format(path);
   if (format == File_format::HTML) return mappings_of_page(path);
   if (format != File_format::PLY)
-    throw Input_error("cannot read '" + path + "': it is neither a page, .html, nor a mesh, .ply");
+    throw Input_error("cannot read '" + path + "': unknown extension; give a page, .html, or a mesh, .ply");
   std::ifstream file = open_input(path);
   const auto [mesh, attributes] = read_PLY<Kernel>(file, path);
   const Numbers_of_mesh numbers_of(mesh, attributes);
@@ -111,8 +111,8 @@ Mappings mappings_of_file(const std::string& path) {
   return mappings;
 }
 
-/// Reads the way from numbers to colors of each attribute of a page of ours, .html, or of a mesh, .ply. Throws
-/// `Input_error` if the file is neither.
+/// Reads the color mapping of each attribute from a page of this program, .html, or a mesh, .ply. Throws `Input_error`
+/// for other files.
 Mappings read_mappings(const std::string& path) {
   try {
     return mappings_of_file(path);
@@ -121,27 +121,26 @@ Mappings read_mappings(const std::string& path) {
   }
 }
 
-/// The most triangles that a page has: beyond, browsers are slow, or fail.
+/// The maximum number of triangles of a page: with more, browsers are slow or fail.
 constexpr std::size_t most_triangles_of_page = 2'000'000;
 
-/// The mappings in that file. Throws `Input_error` if there is none for the column that is shown first.
+/// The mappings of the file. Throws `Input_error` if there is none for the column that is shown first.
 Mappings shared_mappings(const std::string& path, const Vertex_attributes& attributes, const std::string& color) {
   auto mappings = read_mappings(path);
   const std::string shown = color.empty() ? first_shown(attributes) : color;
   if (find_column(attributes, shown) && !mappings.contains(shown))
     throw Input_error(option_text("range_of") + ": '" + path + "' has no attribute '" + shown +
-                      "'; name one that it has, " + option_text("color", "NAME"));
+                      "'; choose one of its attributes with " + option_text("color", "NAME"));
   return mappings;
 }
 
-/// Writes the page, of a coarser mesh if there are too many triangles, which it says then.
+/// Writes the page. If there are too many triangles, it shows a simplified mesh, with a note.
 void write_page(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                 Display_options& page) {
   if (mesh.triangles.size() <= most_triangles_of_page) return write_HTML(stream, mesh, attributes, page);
   const Displayed_mesh shown = decimate(mesh, attributes, most_triangles_of_page);
-  page.description.emplace_back("Shown here", std::to_string(shown.mesh.triangles.size()) +
-                                                  " triangles between some of the vertices; colors and statistics "
-                                                  "are theirs");
+  page.description.emplace_back("Shown here", "simplified to " + std::to_string(shown.mesh.triangles.size()) +
+                                                  " triangles; colors and statistics are those of the simplified mesh");
   write_HTML(stream, shown.mesh, shown.attributes, page);
 }
 
@@ -160,14 +159,14 @@ std::string page_title(const std::string& path, const std::string& otherwise) {
 
 void check_display_outputs(const Display_request& options) {
   if (options.html) check_format(*options.html, File_format::HTML, "a page", ".html");
-  if (options.range_of) read_mappings(*options.range_of); // an error is to come before the work
+  if (options.range_of) read_mappings(*options.range_of); // throws errors before the work
   if (!options.png) return;
 #ifndef EQUIAFFINE_WITH_VTK
   throw Input_error("cannot write '" + *options.png + "': this equiaffine was built without VTK; use " +
                     by_front_end("--html", "a path with .html"));
 #endif
   if (options.png != "-" && file_format(*options.png) != File_format::PNG)
-    throw Input_error("cannot write '" + *options.png + "': a picture is a PNG file; give it the extension .png");
+    throw Input_error("cannot write '" + *options.png + "': the extension does not belong to a PNG file; use .png");
 }
 
 void write_displays(Outputs& outputs, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
@@ -193,9 +192,9 @@ void write_displays(Outputs& outputs, const Indexed_triangle_mesh_3<Kernel>& mes
 
 namespace {
 
-constexpr const char *scale_label = "Scale", *own_scale = "none: the curvatures are the surface's own",
+constexpr const char *scale_label = "Scale", *own_scale = "none: curvatures of the surface itself",
                      *noise_label = "Noise", *parabolic_label = "Parabolic",
-                     *known_label = "Known to 20 / 50 % at so many %", *errors_label = "Errors";
+                     *known_label = "% of vertices with errors below 20 / 50 %", *errors_label = "Errors";
 constexpr std::array<std::string_view, 4> labels = {scale_label, noise_label, parabolic_label, known_label};
 constexpr std::size_t longest_value = 200;
 constexpr std::string_view begin_of_comment = "fit ", end_of_label = ": ";
@@ -212,7 +211,7 @@ Description description_of(const Fit_statistics& fit) {
                       {noise_label, number_text(fit.noise, 2)}};
   if (const auto percent = std::lround(100 * fit.parabolic); percent > 0)
     rows.emplace_back(parabolic_label, std::to_string(percent) + " % of the vertices");
-  rows.emplace_back(known_label, table_of_known(fit));
+  rows.emplace_back(known_label, table_of_errors(fit));
   return rows;
 }
 
@@ -238,7 +237,7 @@ Description description_of_fit(const Vertex_attributes& attributes) {
   }
   if (!fit.empty() && !has_errors(attributes))
     fit.emplace_back(errors_label,
-                     "lost: the file has no column NAME_error, so that the colors do not tell what is known");
+                     "missing: the file has no columns NAME_error, so that colors do not show uncertainty");
   return fit;
 }
 

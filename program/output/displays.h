@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pages and pictures of a surface, and what they say of a fit: its scale, its noise and what is known.
+// Pages and pictures of a surface, and their descriptions of fits: scale, noise, and errors.
 #ifndef EQUIAFFINE_PROGRAM_OUTPUT_DISPLAYS_H
 #define EQUIAFFINE_PROGRAM_OUTPUT_DISPLAYS_H
 
@@ -17,60 +17,59 @@
 
 namespace equiaffine {
 
-/// The table of a page about its surface, in rows of two cells.
+/// The table of facts on a page: labels and values.
 using Description = std::vector<std::pair<std::string, std::string>>;
 
-/// Returns the number with that many digits for a description.
+/// Formats a number for a description.
 std::string number_text(double number, int digits = 6);
 
-/// Returns what a page of the surface in that file is called: the name of the file, or `otherwise` if that is "-".
+/// The title of the page of a surface: the name of the file without extension, or `otherwise` if the path is "-".
 std::string page_title(const std::string& path, const std::string& otherwise);
 
-/// Throws `Input_error` if the page has an extension that is not that of a page, if the picture has another one than
-/// .png, if the colors of `range_of` cannot be read, or if a picture is asked for and this program was built without
-/// VTK. Each may be "-".
+/// Throws `Input_error` if the page or the picture has a wrong extension, if the colors of `range_of` cannot be read,
+/// or if a picture is requested and this program was built without VTK. Each path may be "-".
 void check_display_outputs(const Display_request& options);
 
-/// The texts by which a page and a picture describe a surface.
+/// The texts of a page and a picture about their surface.
 struct Surface_texts {
   std::string title;
   Description description;
   std::vector<Surface_note> notes = {}; ///< below the picture
-  std::string label_suffix = {};        ///< what follows the labels of quantities
+  std::string label_suffix = {};        ///< appended to the labels of quantities
 };
 
-/// Writes the page and the picture that are among the outputs, without committing. The curves are on the picture only.
+/// Writes the page and the picture of the outputs, without committing. Only the picture shows the curves.
 void write_displays(Outputs& outputs, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                     const Display_request& options, const Surface_texts& texts,
                     const std::vector<Polyline_3<Kernel>>& curves = {});
 
-/// Scale, noise, and the parts of the vertices at which quantities are known, as rows of a description.
+/// Scale, noise, and the percentages of vertices with small errors, as rows of a description.
 Description description_of(const Fit_statistics& fit);
 
-/// The rows as comments of a mesh, by which `view` knows them again; none if nothing was fitted.
+/// The rows as comments of a mesh, from which `view` reads them; empty if nothing was fitted.
 std::vector<std::string> comments_of(const Fit_statistics& fit);
 
-/// The rows that comments_of() wrote, and one that says so if the mesh has lost its columns of errors. Empty for a mesh
-/// that does not come from a fit.
+/// Reads the rows of comments_of(), and adds a row if the mesh has lost its columns of errors. Empty for a mesh that
+/// does not come from a fit.
 Description description_of_fit(const Vertex_attributes& attributes);
 
-/// " at scale 0.1" for what follows the names of quantities; nothing for the surface's own, or without a fit.
+/// The suffix " at scale 0.1" of labels of quantities; empty for curvatures of the surface itself, or without a fit.
 std::string label_suffix(const Description& fit);
 
-/// The rows as lines below a picture, without the scale, which stands in its legend.
+/// The rows as notes below a picture, without the scale, which is in the legend.
 std::vector<Surface_note> notes_of(const Description& fit);
 
-/// A mesh that is to be looked at, and the numbers at its vertices.
+/// A mesh for display, and the attributes of its vertices.
 struct Displayed_mesh {
   Indexed_triangle_mesh_3<Kernel> mesh;
   Vertex_attributes attributes;
 };
 
-/// Makes a mesh of at most so many triangles, for display: of the vertices in a cell of a grid one is left, that
-/// nearest to their mean, with its numbers (vertex clustering: Rossignac, Borrel 1993). Parts that are nearer to each
-/// other than a cell may be merged, and triangles with a corner that is not finite are left out. There are at
-/// most 2^21 cells along an axis: one vertex a thousand times as far away as the others makes the mesh coarse. Takes
-/// about 70 bytes of memory per vertex.
+/// Makes a mesh of at most `most_triangles` triangles for display: in each cell of a grid, it keeps the vertex nearest
+/// to the mean of the cell's vertices, with its attributes (vertex clustering: Rossignac, Borrel 1993). Parts nearer to
+/// each other than a cell may be merged; triangles with a corner that is not finite are left out. There are at most
+/// 2^21 cells along an axis, so a vertex a thousand times as far away as the others makes the mesh coarse. Uses about
+/// 70 bytes of memory per vertex.
 Displayed_mesh decimate(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                         std::size_t most_triangles);
 

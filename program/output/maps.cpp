@@ -16,13 +16,13 @@ namespace equiaffine {
 
 namespace {
 
-/// A power of ten such as "10^-151", but none that only says how many points there are.
+/// A power of ten such as "10^-151". Exponents below -300 only reflect the number of points.
 std::string power_of_ten(double logarithm) {
   constexpr double least = -300;
   return logarithm < least ? "less than 10^-300" : "10^" + std::to_string(std::lround(logarithm));
 }
 
-/// "; try this, or that"
+/// "; try A, or B"
 std::string try_text(const std::vector<Registration_advice>& advice) {
   std::string text;
   for (const Registration_advice each : advice) text += (text.empty() ? "; try " : ", or ") + advice_text(each);
@@ -50,7 +50,7 @@ const Symmetry_level_3<Kernel>* level_of_maps(const Symmetries& symmetries) {
   return nullptr;
 }
 
-/// Whether the symmetries are those of the first level, and hold to rounding.
+/// Whether the symmetries are those of the first level, and exact up to rounding.
 bool is_exact(const Symmetries& symmetries) {
   return symmetries.verdict == Symmetry_verdict::EXACT && !symmetries.levels.empty() &&
          symmetries.maps.size() == symmetries.levels.front().order();
@@ -64,18 +64,18 @@ std::string part_text(double part) {
   return text.str();
 }
 
-/// " to within 0.097 % of the size (0.6 % at most)"; nothing for what holds to rounding.
+/// " to within 0.097 % of the size (rms; maximum 0.6 %)"; empty if exact up to rounding.
 std::string within_text(double rms, double greatest) {
   constexpr double rounding = 1e-10;
   if (!(rms > rounding)) return "";
   std::ostringstream text;
   text.precision(2);
   text << " to within " << part_text(rms);
-  if (greatest > 0) text << " (" << 100 * greatest << " % at most)";
+  if (greatest > 0) text << " (rms; maximum " << 100 * greatest << " %)";
   return text.str();
 }
 
-/// A line for each level that is larger than the symmetries.
+/// A line for each level with more maps than the symmetries.
 std::string greater_levels(const Symmetries& symmetries) {
   std::string text;
   for (const auto& level : symmetries.levels)
@@ -85,14 +85,15 @@ std::string greater_levels(const Symmetries& symmetries) {
 }
 
 std::string completeness_text(const Symmetries& symmetries) {
-  if (!symmetries.complete_to) return "not all rotations could be tried\n";
-  return "all rotations were tried that may move it to within " + part_text(*symmetries.complete_to) + '\n';
+  if (!symmetries.complete_to) return "the search does not cover all rotations\n";
+  return "the search covers all rotations that move the surface onto itself to within " +
+         part_text(*symmetries.complete_to) + '\n';
 }
 
-/// ", along and about (0, 0, 1)": the axis of one or two rigid motions, one of which may be a screw; nothing for
-/// others. `size` is that of the surface.
+/// ", along and about (0, 0, 1)": the axis of one or two rigid motions; a single motion may be a screw. Empty for other
+/// generators. `size` is that of the surface.
 std::string axis_text(const Affine_slippage_3& slippage, double size) {
-  constexpr double least = 0.05; // of a rotation or a translation beside the other, as fits have errors
+  constexpr double least = 0.05; // smaller rotations relative to translations, or vice versa, are errors of fits
   const std::size_t dimension = slippage.dimension();
   if (dimension == 0 || dimension > 2) return "";
   std::vector<Eigen::Vector3d> turns, shifts;
@@ -108,7 +109,7 @@ std::string axis_text(const Affine_slippage_3& slippage, double size) {
     text << ", " << how << " (" << unit[0] << ", " << unit[1] << ", " << unit[2] << ')';
     return text.str();
   };
-  // A rotation about an axis far away moves the origin at a right angle to the axis.
+  // A rotation about a distant axis moves the origin at a right angle to the axis.
   const bool is_turn =
       turns[0].norm() > least * shifts[0].norm() ||
       (turns[0].norm() > 0 && std::abs(turns[0].normalized().dot(shifts[0])) < least * shifts[0].norm());
@@ -118,7 +119,7 @@ std::string axis_text(const Affine_slippage_3& slippage, double size) {
       return is_turn ? text_of("about", turns[0]) : text_of("along", shifts[0]);
     std::ostringstream text;
     text.precision(3);
-    text << text_of("as a screw about", turns[0]) << " that rises by " << 2 * std::numbers::pi * rise << " in a turn";
+    text << text_of("as a screw about", turns[0]) << " with pitch " << 2 * std::numbers::pi * rise;
     return text.str();
   }
   const Eigen::Vector3d& axis = turns[turns[0].norm() < turns[1].norm() ? 1 : 0];
@@ -126,36 +127,35 @@ std::string axis_text(const Affine_slippage_3& slippage, double size) {
   return is_cylinder ? text_of("along and about", axis) : "";
 }
 
-std::string ways(std::size_t number) { return std::to_string(number) + (number == 1 ? " way" : " ways"); }
+std::string degrees_of_freedom(std::size_t number) {
+  return std::to_string(number) + (number == 1 ? " degree of freedom" : " degrees of freedom");
+}
 
 } // namespace
 
 std::string advice_text(Registration_advice advice) {
   switch (advice) {
   case Registration_advice::SIMILARITIES_OF_FRAMES:
-    return option_text("kind", "similarity") + ", whose frames need fewer derivatives and exist on quadrics, too";
+    return option_text("kind", "similarity") + ", whose frames need fewer derivatives and also exist on quadrics";
   case Registration_advice::SIMILARITIES_OF_OTHER_SIZE:
     return option_text("kind", "similarity") + ", which allows other sizes";
   case Registration_advice::SIMILARITIES_OF_TRIANGLES:
     return option_text("kind", "similarity") + ", which needs no curvature";
   case Registration_advice::ALL_MAPS: return option_text("kind", "affine") + ", which allows all maps";
-  case Registration_advice::RIGID_MAPS: return option_text("kind", "rigid") + ", whose maps need no solid";
-  case Registration_advice::REFLECTIONS:
-    return by_front_end("the command without --no-reflections", "reflections=True");
+  case Registration_advice::RIGID_MAPS: return option_text("kind", "rigid") + ", which needs no solid";
+  case Registration_advice::REFLECTIONS: return by_front_end("leaving out --no-reflections", "reflections=True");
   case Registration_advice::SAME_SCALE: return "the same " + option_text("scale", "R") + " on both sides";
   case Registration_advice::LARGER_SAME_SCALE: return "a larger " + option_text("scale") + ", the same on both sides";
   case Registration_advice::A_SCALE: return option_text("scale", "R") + " for the fit";
   case Registration_advice::LARGER_SCALE: return "a larger " + option_text("scale");
-  case Registration_advice::FIT_OF_MESH:
-    return "--fit in place of --distance-to, since facets have no affine curvature";
+  case Registration_advice::FIT_OF_MESH: return "--fit instead of --distance-to, since facets have no affine curvature";
   case Registration_advice::SMOOTHING: return option_text("smoothing", "auto") + " for the volume";
   case Registration_advice::LARGER_TOLERANCE: return "a larger " + option_text("tolerance");
-  case Registration_advice::OTHER_TOLERANCE:
-    return option_text("tolerance", "PART") + " for another distance to which maps may move points";
+  case Registration_advice::OTHER_TOLERANCE: return "another " + option_text("tolerance");
   case Registration_advice::SMALLER_OVERLAP: return "a smaller " + option_text("min_overlap");
   case Registration_advice::MORE_IN_COMMON: break;
   }
-  return "surfaces that have more in common";
+  return "surfaces with a larger overlap";
 }
 
 std::string overlap_text(const Registered_map_3<Kernel>& map) {
@@ -164,11 +164,11 @@ std::string overlap_text(const Registered_map_3<Kernel>& map) {
 }
 
 std::string contradictions_text(const Registered_map_3<Kernel>& map) {
-  constexpr double least = 1e-3; // of all points: fewer are not reported
+  constexpr double least = 1e-3; // smaller fractions of the points are not reported
   if (!map.contradictions || std::max(map.contradictions->at(0), map.contradictions->at(1)) < least) return "";
   std::ostringstream text;
   text.precision(2);
-  text << ", off it although it does not end there: " << 100 * map.contradictions->at(0) << " % of the source, "
+  text << "; off the other surface, not near its boundary: " << 100 * map.contradictions->at(0) << " % of the source, "
        << 100 * map.contradictions->at(1) << " % of the target";
   return text.str();
 }
@@ -183,30 +183,32 @@ std::string rms_text(const Surface_registration_3<Kernel>& registration) {
   return text.str();
 }
 
-std::string odds_text(const Registered_map_3<Kernel>& map) {
-  return "as good a one is expected " + power_of_ten(map.log10_false_alarms) + " times by chance";
+std::string significance_text(const Registered_map_3<Kernel>& map) {
+  return "expected number of equally good maps by chance: " + power_of_ten(map.log10_false_alarms);
 }
 
 std::string reason_for_none(const Registration_report& report) {
   const std::size_t n = report.registration.hypotheses;
   const std::string& reason = report.registration.reason;
-  const std::string of_triangles = reason.empty() ? "" : "; by the triangles without curvature, " + reason;
+  const std::string of_triangles = reason.empty() ? "" : "; by triangles, without curvature: " + reason;
   const bool slides = report.registration.slippage.dimension() > 0;
   if (n == 0)
-    return std::string("no map found: no points of the two have frames that ") + (slides ? "are determined and " : "") +
-           "agree" + of_triangles;
+    return std::string("no map found: the surfaces have no ") + (slides ? "unique frames" : "frames") + " that agree" +
+           of_triangles;
   std::string scales;
   for (const auto& pair : report.registration.scales)
     scales += (scales.empty() ? " (at the scales " : "; ") + scales_text(pair);
   if (!scales.empty()) scales += ')';
-  return "no map found: " + (n == 1 ? "the only hypothesis is no" : "none of " + std::to_string(n) + " hypotheses is") +
-         " better than chance" + (report.registration.maps_left_out > 0 ? " for more than a small part" : "") + scales +
+  return "no map found: " +
+         (n == 1 ? "the only hypothesis is not" : "none of " + std::to_string(n) + " hypotheses is") +
+         " better than chance" +
+         (report.registration.maps_left_out > 0 ? " on more than a small part of the surfaces" : "") + scales +
          of_triangles;
 }
 
 std::string reason_for_undecided(const Symmetries& symmetries) {
   if (!symmetries.reason.empty()) return symmetries.reason;
-  return "other maps move the surface nearly as close to itself as the tolerance";
+  return "other maps exceed the tolerance only slightly";
 }
 
 std::string determinants_text(const Symmetries& symmetries) {
@@ -219,18 +221,18 @@ std::vector<std::string> limits_of(const Symmetries& symmetries) {
   std::vector<std::string> limits;
   const std::size_t dimension = symmetries.continuous.dimension();
   if (dimension > 0 && !symmetries.levels.empty())
-    limits.push_back("it turns about " + std::string(dimension == 1 ? "an axis" : "any axis") +
-                     within_text(symmetries.continuous.rms, 0) + ", as the surface would that its facets stand for");
+    limits.push_back("the surface that the facets approximate is symmetric under rotations about " +
+                     std::string(dimension == 1 ? "an axis" : "any axis") + within_text(symmetries.continuous.rms, 0));
   if (symmetries.order_in_box) {
-    std::string text = "the surface goes on beyond the box, where nothing was tried";
+    std::string text = "the surface continues outside the box, where nothing was verified";
     if (const auto order = symmetries.order(); order && *symmetries.order_in_box < *order)
-      text += "; " + std::to_string(*symmetries.order_in_box) + " of them move" +
-              (*symmetries.order_in_box == 1 ? "s" : "") + " its piece in the box onto itself";
+      text += "; " + std::to_string(*symmetries.order_in_box) + " of the symmetries map" +
+              (*symmetries.order_in_box == 1 ? "s" : "") + " the part in the box onto itself";
     limits.push_back(text);
   }
   if (symmetries.spacing && symmetries.is_decided && (dimension > 0 || symmetries.maps.size() > 1))
-    limits.push_back("tried at points " + part_text(*symmetries.spacing) +
-                     " apart, between which a narrower detail may hide");
+    limits.push_back("verified at points " + part_text(*symmetries.spacing) +
+                     " apart, which may miss narrower details");
   return limits;
 }
 
@@ -254,11 +256,11 @@ std::string summary(const Registration_report& report) {
   } else {
     const auto& best = registration.best();
     text.precision(3);
-    text << "map found, determinant " << internal::determinant_of(best.map) << ": " << odds_text(best) << '\n';
-    text << "on the other surface: " << overlap_text(best) << contradictions_text(best) << '\n';
+    text << "map found, determinant " << internal::determinant_of(best.map) << "; " << significance_text(best) << '\n';
+    text << "overlap: " << overlap_text(best) << contradictions_text(best) << '\n';
     text << "rms distance " << rms_text(registration) << '\n';
     text << registration.hypotheses << (registration.hypotheses == 1 ? " hypothesis" : " hypotheses");
-    if (registration.is_by_triangles) text << ", the last ones by the triangles without curvature";
+    if (registration.is_by_triangles) text << ", the last ones by triangles, without curvature";
     else if (!registration.scales.empty())
       text << ", the last ones at scale " << scales_text(registration.scales.back());
     if (registration.next_best_rms) text << ", next best rms distance " << *registration.next_best_rms;
@@ -267,11 +269,11 @@ std::string summary(const Registration_report& report) {
   }
   if (registration.found() && registration.equally_good > 0)
     text << "at least " << registration.equally_good
-         << (registration.equally_good == 1 ? " other map fits" : " other maps fit") << " as well"
-         << (report.has_all_maps ? "" : ": " + option_text("number_of_maps") + " writes them") << '\n';
+         << (registration.equally_good == 1 ? " other map fits" : " other maps fit") << " equally well"
+         << (report.has_all_maps ? "" : "; list them with " + option_text("number_of_maps", "N")) << '\n';
   if (dimension > 0)
-    text << "the source slides over itself" << within_text(registration.slippage.rms, 0) << " in " << ways(dimension)
-         << axis_text(registration.slippage, registration.size)
+    text << "the source slides over itself" << within_text(registration.slippage.rms, 0) << " with "
+         << degrees_of_freedom(dimension) << axis_text(registration.slippage, registration.size)
          << (registration.found() ? ": the map is one of a continuous family\n" : "\n");
   return text.str();
 }
@@ -282,13 +284,12 @@ std::string summary(const Symmetries_report& report) {
   std::string text, rest = greater_levels(symmetries);
   for (const std::string& limit : limits_of(symmetries)) rest += limit + '\n';
   if (report.is_complete) rest += completeness_text(symmetries);
-  if (report.has_rigid_maps_only)
-    text = "rigid ones only, since the mesh bounds no solid, by whose moments affine ones are found:\n";
+  if (report.has_rigid_maps_only) text = "only rigid symmetries, since affine ones need a mesh that bounds a solid:\n";
   if (symmetries.is_undecided()) {
     text += "undecided: " + reason_for_undecided(symmetries) + try_text(symmetries.advice) + '\n';
   } else if (dimension > 0 && symmetries.levels.empty()) {
     text += "infinitely many symmetries" + within_text(symmetries.continuous.rms, 0) +
-            ": the surface slides over itself in " + ways(dimension) + '\n';
+            ": the surface slides over itself with " + degrees_of_freedom(dimension) + '\n';
   } else if (symmetries.maps.size() == 1) {
     text += "1 symmetry, the identity" + try_text(symmetries.advice) + '\n';
   } else {
@@ -296,14 +297,14 @@ std::string summary(const Symmetries_report& report) {
     const auto* const level = level_of_maps(symmetries);
     text += std::to_string(symmetries.maps.size()) + " symmetries" +
             (level && !is_exact(symmetries) ? within_text(level->rms, level->greatest) : "") + ", " +
-            std::to_string(reflections) + " of them change" + (reflections == 1 ? "s" : "") + " left and right\n";
+            std::to_string(reflections) + " of them reverse" + (reflections == 1 ? "s" : "") + " orientation\n";
   }
   return text + rest;
 }
 
 namespace {
 
-/// Adds `matrix`, by its rows, and `translation`.
+/// Adds `matrix`, row by row, and `translation`.
 void add(const CGAL::Aff_transformation_3<Kernel>& map, Json& json) {
   for (int row = 0; row < 3; ++row) {
     json["matrix"].push_back({map.m(row, 0), map.m(row, 1), map.m(row, 2)});

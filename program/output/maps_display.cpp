@@ -26,9 +26,9 @@ using Mesh = Indexed_triangle_mesh_3<Kernel>;
 using Point = Kernel::Point_3;
 using Vector = Kernel::Vector_3;
 
-constexpr double tolerance = 1e-3; // of directions of length 1 that count as equal
+constexpr double tolerance = 1e-3; // unit vectors this close count as equal
 
-/// A profile turned about an axis: places along it and multiples of the radius there.
+/// A surface of revolution; the profile consists of positions along the axis, and multiples of the radius there.
 template <std::size_t Rings>
 Indexed_triangle_mesh_3<Kernel> turned(const Kernel::Point_3& base, const Kernel::Vector_3& along, double radius,
                                        const std::array<std::array<double, 2>, Rings>& profile, std::uint32_t sides) {
@@ -69,12 +69,12 @@ Eigen::Matrix3d matrix_of(const Map& map) {
 
 Vector vector_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
 
-/// The direction that a matrix maps to 0, or nearly so.
+/// The direction of the smallest singular value, which the matrix maps nearly to 0.
 Eigen::Vector3d null_direction(const Eigen::Matrix3d& matrix) {
   return Eigen::JacobiSVD<Eigen::Matrix3d>(matrix, Eigen::ComputeFullV).matrixV().col(2);
 }
 
-/// The point that all maps of a group leave in its place.
+/// The common fixed point of a group of maps.
 Point fixed_point(const Affine_symmetries_3<Kernel>& symmetries) {
   Vector sum(0, 0, 0);
   for (const auto& symmetry : symmetries.maps)
@@ -82,7 +82,7 @@ Point fixed_point(const Affine_symmetries_3<Kernel>& symmetries) {
   return CGAL::ORIGIN + sum;
 }
 
-/// Adds a line, unless it is there.
+/// Adds a line, unless there is already one with its direction.
 void add_axis(const Point& point, const Eigen::Vector3d& direction, std::vector<Kernel::Line_3>& axes) {
   const Vector v = vector_of(direction.normalized());
   const bool is_known = std::any_of(axes.begin(), axes.end(), [&](const Kernel::Line_3& axis) {
@@ -100,7 +100,7 @@ void add(const Mesh& part, Mesh& whole) {
 } // namespace
 
 Indexed_triangle_mesh_3<Kernel> arrow_mesh(const Kernel::Point_3& base, const Kernel::Vector_3& arrow, double radius) {
-  // The rings are those of the shaft's ends and of the cone's foot, and the tip is a ring of radius 0, as is the base.
+  // The rings: base (radius 0), ends of the shaft, base of the cone, and tip (radius 0).
   constexpr std::array<std::array<double, 2>, 5> profile = {{{0, 0}, {0, 1}, {0.75, 1}, {0.75, 2.5}, {1, 0}}};
   return turned(base, arrow, radius, profile, 12);
 }
@@ -111,7 +111,7 @@ Symmetry_marks marks_of(const Affine_symmetries_3<Kernel>& symmetries) {
     const auto& [matrix, translation] = symmetries.continuous.generators[0];
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Eigen::Vector3d values = svd.singularValues();
-    if (values[2] > tolerance * values[0]) return marks; // it turns about no axis
+    if (values[2] > tolerance * values[0]) return marks; // there is no axis
     const Eigen::Vector3d inverse(1 / values[0], 1 / values[1], 0);
     const Eigen::Vector3d on_axis = -(svd.matrixV() * inverse.cwiseProduct(svd.matrixU().transpose() * translation));
     add_axis(CGAL::ORIGIN + vector_of(on_axis), svd.matrixV().col(2), marks.axes);
@@ -171,9 +171,9 @@ Mesh mesh_of_axes(const std::vector<Kernel::Line_3>& axes, const Mesh& surface, 
 
 namespace {
 
-/// A surface of a page or picture, by its number in the column `surface`.
+/// A surface on a page or picture; its index is the value of the column `surface`.
 struct Shown_surface {
-  std::string name, color; ///< the color of its number in the range from 0 to the last one
+  std::string name, color; ///< the color of its index in the range from 0 to the last index
 };
 
 std::vector<Shown_surface> shown_surfaces(const Registration_report& report) {
@@ -216,7 +216,7 @@ std::vector<Shown_surface> shown_surfaces(const Symmetries& symmetries) {
 }
 
 std::string text_of_distances() {
-  return "those of the distance from the other surface; " + option_text("color", "surface") + " tells the two apart";
+  return "distance from the other surface; use " + option_text("color", "surface") + " to distinguish the two";
 }
 
 } // namespace
@@ -236,11 +236,11 @@ Description description_of(const Registration_report& report, const Display_requ
     const auto& best = report.registration.best();
     description.emplace_back("Map", "found");
     description.emplace_back("Determinant", number_text(internal::determinant_of(best.map), 3));
-    description.emplace_back("On the other surface", overlap_text(best) + contradictions_text(best));
+    description.emplace_back("Overlap", overlap_text(best) + contradictions_text(best));
     description.emplace_back("Rms distance", rms_text(report.registration));
     if (const auto& next = report.registration.next_best_rms)
-      description.emplace_back("Rms distance of the next best", number_text(*next, 3));
-    description.emplace_back("Odds", odds_text(best));
+      description.emplace_back("Next best rms distance", number_text(*next, 3));
+    description.emplace_back("Significance", significance_text(best));
     description.emplace_back("log10 of false alarms", number_text(best.log10_false_alarms, 3));
   }
   description.emplace_back("surface", numbers_text(shown_surfaces(report), shows_surfaces(options)));
@@ -255,12 +255,13 @@ std::vector<Surface_note> notes_of(const Registration_report& report, const Disp
     for (const auto advice : report.registration.advice) add_text("try " + advice_text(advice), notes);
   } else {
     const auto& best = report.registration.best();
-    add_text("determinant " + number_text(internal::determinant_of(best.map), 3) + ": " + odds_text(best), notes);
-    add_text("on the other surface: " + overlap_text(best) + contradictions_text(best), notes);
+    add_text("determinant " + number_text(internal::determinant_of(best.map), 3) + "; " + significance_text(best),
+             notes);
+    add_text("overlap: " + overlap_text(best) + contradictions_text(best), notes);
     add_text("rms distance " + rms_text(report.registration), notes);
   }
   if (!shows_surfaces(options)) {
-    add_text("colors are " + text_of_distances(), notes);
+    add_text("colors: " + text_of_distances(), notes);
     return notes;
   }
   add_surfaces(shown_surfaces(report), notes);
@@ -284,7 +285,8 @@ Description description_of(const Symmetries_report& report, const Display_reques
   if (symmetries.continuous.dimension() > 0)
     description.emplace_back("Generators", std::to_string(symmetries.continuous.dimension()));
   if (order) description.emplace_back("Determinants", determinants_text(symmetries));
-  if (report.has_rigid_maps_only) description.emplace_back("Kind", "rigid ones only, since the mesh bounds no solid");
+  if (report.has_rigid_maps_only)
+    description.emplace_back("Kind", "only rigid symmetries, since the mesh does not bound a solid");
   for (const std::string& limit : limits_of(symmetries)) description.emplace_back("Limit", limit);
   for (const auto advice : symmetries.advice) description.emplace_back("To find more, try", advice_text(advice));
   description.emplace_back("surface", numbers_text(shown_surfaces(symmetries), shows_surfaces(options)));

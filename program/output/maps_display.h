@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How pages and pictures show maps: by arrows, planes and axes, and in texts.
+// Maps on pages and pictures: arrows, planes, axes, and texts.
 #ifndef EQUIAFFINE_PROGRAM_OUTPUT_MAPS_DISPLAY_H
 #define EQUIAFFINE_PROGRAM_OUTPUT_MAPS_DISPLAY_H
 
@@ -13,18 +13,18 @@
 
 namespace equiaffine {
 
-/// An arrow from a point along a vector, as a closed mesh: a shaft of that radius, and a cone for the last quarter.
+/// An arrow from a point along a vector, as a closed mesh: a shaft of the radius, and a cone for the last quarter.
 Indexed_triangle_mesh_3<Kernel> arrow_mesh(const Kernel::Point_3& base, const Kernel::Vector_3& arrow, double radius);
 
-/// What symmetries leave in its place.
+/// The fixed planes and axes of symmetries.
 struct Symmetry_marks {
-  std::vector<Kernel::Plane_3> planes; ///< of reflections, which need not be perpendicular
+  std::vector<Kernel::Plane_3> planes; ///< of reflections, which need not be orthogonal
   std::vector<Kernel::Line_3> axes;    ///< of rotations, each once
 };
 
 Symmetry_marks marks_of(const Affine_symmetries_3<Kernel>& symmetries);
 
-/// The curves in which planes cut the surface, as a mesh of rods.
+/// The intersection curves of planes with the surface, as a mesh of rods.
 Indexed_triangle_mesh_3<Kernel> mesh_of_planes(const std::vector<Kernel::Plane_3>& planes,
                                                const Indexed_triangle_mesh_3<Kernel>& surface, double radius);
 
@@ -32,14 +32,14 @@ Indexed_triangle_mesh_3<Kernel> mesh_of_planes(const std::vector<Kernel::Plane_3
 Indexed_triangle_mesh_3<Kernel> mesh_of_axes(const std::vector<Kernel::Line_3>& axes,
                                              const Indexed_triangle_mesh_3<Kernel>& surface, double radius);
 
-/// The options with which the two surfaces are shown: by the color of each unless another one or a range is given.
+/// The display options: the two surfaces get different colors unless an attribute or a range is given.
 Display_request display_of(const Registration_report& report, Display_request options);
 
-/// The texts for the page and the picture that are shown with the `options`.
+/// The texts of the page and the picture.
 Description description_of(const Registration_report& report, const Display_request& options);
 std::vector<Surface_note> notes_of(const Registration_report& report, const Display_request& options);
 
-/// The same for symmetries, whose planes and axes stand beside the surface.
+/// The same for symmetries, with planes and axes.
 Display_request display_of(const Symmetries_report& report, Display_request options);
 Description description_of(const Symmetries_report& report, const Display_request& options);
 std::vector<Surface_note> notes_of(const Symmetries_report& report, const Display_request& options);

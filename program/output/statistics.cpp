@@ -89,7 +89,7 @@ void add_status(const Mesh_facts& facts, std::ostream& text) {
   text << '\n';
 }
 
-/// The words and symbols of `affine_quantities`.
+/// The names and symbols of `affine_quantities`.
 struct Words {
   std::string_view label, symbol;
 };
@@ -106,47 +106,49 @@ void add_fit(const Fit_statistics& fit, std::ostream& text) {
     const std::string_view first = first_known(fit);
     const auto place = std::find(affine_quantities.begin(), affine_quantities.end(), first) - affine_quantities.begin();
     const auto& [to_10, to_20, to_50] = fit.known_of(first);
-    text << "at scale " << *fit.scale << ": " << words_of_quantities[std::size_t(place)].label << " known to 20 % at "
-         << percent(to_20) << " %, to 50 % at " << percent(to_50) << " % of the vertices; noise " << fit.noise << '\n';
+    text << "at scale " << *fit.scale << ": error of the " << words_of_quantities[std::size_t(place)].label
+         << " below 20 % at " << percent(to_20) << " %, below 50 % at " << percent(to_50)
+         << " % of the vertices; noise " << fit.noise << '\n';
   } else {
     text.precision(2);
     if (std::isfinite(fit.noise))
       text << "fits of radius " << fit.scales[0] << " to " << fit.scales[2] << ", noise " << fit.noise << '\n';
     const auto& [to_10, to_20, to_50] = fit.known[0];
-    text << "affine Gaussian curvature known to 10 %: " << percent(to_10) << " %, to 20 %: " << percent(to_20)
-         << " %, to 50 %: " << percent(to_50) << " % of the vertices\n";
+    text << "error of the affine Gaussian curvature below 10 % at " << percent(to_10) << " %, below 20 % at "
+         << percent(to_20) << " %, below 50 % at " << percent(to_50) << " % of the vertices\n";
   }
-  text << "known to 20 / 50 % at so many %: " << table_of_known(fit) << '\n';
+  text << "% of vertices with errors below 20 / 50 %: " << table_of_errors(fit) << '\n';
 }
 
-/// "98 % of the vertices on the fit, up to 0.0003 from the data; the others up to 0.001: 20 no_value, 3 turned"
+/// "98 % of the vertices on the fit, at most 0.0003 from the data; others at most 0.001: 20 no_value, 3 turned"
 void add_remesh(const Remesh_statistics& remesh, std::ostream& text) {
   const std::size_t all = remesh.number_of_vertices(), on_fit = remesh.number_on_fit();
   const auto& [of_fit, of_others] = remesh.distances_from_data;
   const double part = 100 * double(on_fit) / double(std::max<std::size_t>(all, 1));
-  text << "edges of " << remesh.edge_length << "; " << std::setprecision(3) << part << std::setprecision(2)
-       << " % of the vertices on the fit, up to " << of_fit << " from the data";
-  if (on_fit < all) text << "; the others up to " << of_others;
+  text << "edge length " << remesh.edge_length << "; " << std::setprecision(3) << part << std::setprecision(2)
+       << " % of the vertices on the fit, at most " << of_fit << " from the data";
+  if (on_fit < all) text << "; others at most " << of_others;
   const char* separator = ": ";
   for (std::size_t i = 1; i < number_of_fit_outcomes; ++i) {
     if (remesh.number_of[i] == 0) continue;
     text << std::exchange(separator, ", ") << remesh.number_of[i] << ' ' << fit_outcome_names[i];
   }
-  text << "\ntriangles up to " << remesh.distance_from_data << " from the data, the data up to "
+  text << "\ntriangles at most " << remesh.distance_from_data << " from the data, data at most "
        << remesh.distance_of_data << " from the triangles\n";
   if (remesh.crossings > 0)
-    text << remesh.crossings << " pairs of triangles cross each other, as those of the data do\n";
+    text << remesh.crossings << (remesh.crossings == 1 ? " pair" : " pairs")
+         << " of intersecting triangles, as in the data\n";
 }
 
 } // namespace
 
-std::string table_of_known(const Fit_statistics& fit) {
+std::string table_of_errors(const Fit_statistics& fit) {
   std::ostringstream text;
   for (std::size_t n = 0; n < affine_quantities.size(); ++n) {
     const auto& [to_10, to_20, to_50] = fit.known_of(affine_quantities[n]);
     text << (n == 0 ? "" : ", ") << words_of_quantities[n].symbol << ' ' << percent(to_20) << " / " << percent(to_50);
   }
-  text << "; K as a part of |K| + H^2, H of its root";
+  text << "; relative to |K| + H^2 for K, its square root for H";
   return text.str();
 }
 
@@ -205,7 +207,7 @@ std::string summary(const Statistics& s) {
   if (s.max_distance_to_surface == s.max_distance_to_surface) text << "at most " << s.max_distance_to_surface;
   else text << "unknown";
   if (const std::size_t n = s.status[std::size_t(Point_status::UNCONVERGED)]; n > 0)
-    text << "; nothing is known of the " << n << " unconverged " << (n == 1 ? "vertex" : "vertices");
+    text << "; unknown for " << n << " unconverged " << (n == 1 ? "vertex" : "vertices");
   text << '\n';
   if (s.spline && s.spline->smoothing > 0)
     text << "noise in the samples: " << s.spline->noise.deviation << ", smoothed by " << s.spline->smoothing
@@ -225,7 +227,7 @@ std::string summary(const Statistics& s) {
 std::string summary(const Annotation_statistics& s) {
   std::ostringstream text;
   if (s.faces > 0) add_topology(s, text);
-  else text << s.vertices << " points\n";
+  else text << s.vertices << (s.vertices == 1 ? " point\n" : " points\n");
   if (s.has_colors) text << xyz_colors_note << '\n';
   add_status(s, text);
   add_fit(s.fit, text);

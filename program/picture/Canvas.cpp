@@ -101,7 +101,7 @@ Line_drawing zero_strokes(const Camera& camera, const Indexed_triangle_mesh_3<Ke
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t i = triangle[k], j = triangle[(k + 1) % 3];
       if ((numbers[i] < 0) == (numbers[j] < 0)) continue;
-      const auto& [low, high] = std::minmax(i, j); // both triangles at an edge find the same point
+      const auto& [low, high] = std::minmax(i, j); // the same point for both triangles at an edge
       const double part = numbers[low] / (numbers[low] - numbers[high]);
       ends.push_back(mesh.points[low] + part * (mesh.points[high] - mesh.points[low]));
     }

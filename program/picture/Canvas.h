@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What draws a picture: a canvas, the camera, and strokes on surfaces.
+// Drawing of pictures: a canvas, the camera, and strokes on surfaces.
 #ifndef EQUIAFFINE_PROGRAM_PICTURE_CANVAS_H
 #define EQUIAFFINE_PROGRAM_PICTURE_CANVAS_H
 
@@ -28,32 +28,32 @@ struct Picture {
   std::vector<unsigned char> rgb;
 };
 
-/// The place at which a point of space is seen: pixels to the right and downwards, and the reciprocal of its distance,
-/// which is linear along straight lines of a picture in perspective.
+/// The projection of a point: pixels to the right and downward, and the reciprocal of its distance, which is linear
+/// along straight lines in perspective.
 struct Screen_point {
   double x, y, nearness;
 };
 
-/// A white picture on which what is nearer hides what is behind it, in any order of drawing. Every pixel is the mean of
-/// 3 x 3 samples. No display, graphics processor or thread is involved: the same bytes everywhere.
+/// A white picture with a depth buffer. Every pixel is the mean of 3 x 3 samples. It uses no display, GPU or threads,
+/// so the bytes are the same everywhere.
 ///
-/// A canvas may be a band of the rows of a larger picture: bands need less memory, one after the other, and have the
-/// same bytes as the whole.
+/// A canvas may be a band of rows of a larger picture: drawing bands one after the other needs less memory, and gives
+/// the same bytes.
 class Canvas {
 public:
-  /// Has the rows from `first_row` on.
+  /// Contains the rows from `first_row` on.
   Canvas(std::size_t width, std::size_t height, std::size_t first_row = 0);
 
-  /// The rows of that width that take 64 MB, at least one.
+  /// The number of rows of this width in 64 MB, at least one.
   static std::size_t rows_of_band(std::size_t width);
 
-  /// `shade(weights, is_front)` is the light at the point of the triangle with these barycentric weights, in space;
+  /// `shade(weights, is_front)` returns the light at the point of the triangle in space with these barycentric weights;
   /// the front is the side from which the corners are counterclockwise.
   template <class Shade>
   void draw_triangle(const std::array<Screen_point, 3>& corners, Shade shade);
 
-  /// A straight stroke with round ends, whose half-width in pixels goes from `first` to `last`. It is lifted by
-  /// `lift`, a fraction of its distance, lest the surface on which it lies hide it.
+  /// A straight stroke with round ends, whose half-width in pixels changes from `first` to `last`. It is moved toward
+  /// the eye by `lift`, a fraction of its distance, so that the surface does not hide it.
   void draw_stroke(const Screen_point& a, const Screen_point& b, double first, double last, const Light& light,
                    double lift);
 
@@ -62,7 +62,7 @@ public:
 private:
   static constexpr std::size_t samples_per_axis = 3;
 
-  /// The samples from `first` on whose centers lie in [low, high], in pixels.
+  /// The range of samples whose centers are in [low, high] (in pixels), clamped to `size` samples from `first` on.
   struct Range {
     std::size_t begin, end;
     Range(double low, double high, std::size_t first, std::size_t size) {
@@ -75,7 +75,7 @@ private:
   };
   static double center(std::size_t sample) { return (double(sample) + 0.5) / samples_per_axis; }
 
-  /// The place in memory of a sample.
+  /// The index of a sample in memory.
   std::size_t index(std::size_t row, std::size_t column) const { return (row - first_row_) * width_ + column; }
 
   std::size_t width_, height_, first_row_; // in samples
@@ -85,10 +85,10 @@ private:
 
 template <class Shade>
 void Canvas::draw_triangle(const std::array<Screen_point, 3>& corners, Shade shade) {
-  constexpr double rounding = 1e-9; // neither neighbor may leave out a sample on their common edge
+  constexpr double rounding = 1e-9; // so that no sample on a common edge is missed by both neighbors
   const auto& [a, b, c] = corners;
   const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  if (!(std::abs(area) > 0)) return; // NaN is refused, too
+  if (!(std::abs(area) > 0)) return; // also for NaN
   const auto [left, right] = std::minmax({a.x, b.x, c.x});
   const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
   const Range columns(left, right, 0, width_), rows(top, bottom, first_row_, height_);
@@ -105,7 +105,7 @@ void Canvas::draw_triangle(const std::array<Screen_point, 3>& corners, Shade sha
       nearness_[sample] = float(nearness);
       const std::array<double, 3> weights = {u * a.nearness / nearness, v * b.nearness / nearness,
                                              w * c.nearness / nearness};
-      light_[sample] = shade(weights, area < 0); // y points downwards
+      light_[sample] = shade(weights, area < 0); // y points downward
     }
 }
 
@@ -117,10 +117,10 @@ inline CGAL::Bbox_3 box_of(const std::vector<Kernel::Point_3>& points) {
   return box;
 }
 
-/// Arrows are spread over a grid of this many cells per diameter of the surface, and that much longer than a cell.
+/// The number of cells per diameter of the grid that selects arrows, and the length of arrows in cells.
 inline constexpr double arrow_cells = 16, arrow_length = 1.5;
 
-/// The first view of the page, with room around the surface for arrows where there are some.
+/// The initial view of the page, with a margin around the surface for arrows if there are any.
 class Camera {
 public:
   using Vector = Kernel::Vector_3;
@@ -146,14 +146,14 @@ public:
     return {0.5 * width_ + scale * (right_ * v), 0.5 * height_ - scale * (up_ * v), nearness};
   }
 
-  /// Gives the components of a vector to the right, upwards and towards the eye.
+  /// The components of a vector to the right, upward and toward the eye.
   Vector turned(const Vector& v) const { return {right_ * v, up_ * v, back_ * v}; }
   Vector towards_eye(const Kernel::Point_3& p) const { return unit(center_ + distance_ * back_ - p); }
   double radius() const { return radius_; }
   const Kernel::Point_3& center() const { return center_; }
 
 private:
-  /// Sets the least distance from which everything and a margin is seen.
+  /// Sets the smallest distance at which everything and a margin are visible.
   void fit(const std::vector<Kernel::Point_3>& points) {
     double least = 0;
     for (const Kernel::Point_3& p : points) {
@@ -179,7 +179,7 @@ public:
     strokes_.push_back({a, b, first, last});
   }
 
-  /// Draws them dark with a white rim, so that they are seen on any color.
+  /// Draws them black with a white rim, to be visible on any color.
   void draw_with_rim(Canvas& canvas) const;
 
   void draw(Canvas& canvas, const Light& light) const;
@@ -196,15 +196,14 @@ private:
 
 Line_drawing curve_strokes(const Camera& camera, std::span<const Polyline_3<Kernel>> curves);
 
-/// Returns whether the linear interpolation of a number per vertex changes its sign in a triangle. Where the number of
-/// a corner is not known, it returns false.
+/// Whether the linear interpolation of vertex values changes its sign in a triangle; false if a value is NaN.
 bool changes_sign(const std::vector<double>& numbers, const std::array<std::uint32_t, 3>& triangle);
 
-/// The lines on which that interpolation changes its sign; none without numbers.
+/// The lines where the interpolation changes its sign; none without numbers.
 Line_drawing zero_strokes(const Camera& camera, const Indexed_triangle_mesh_3<Kernel>& mesh,
                           const std::vector<double>& numbers);
 
-/// Arrows at vertices that are spread evenly in space: one in each cell of a grid.
+/// Arrows at evenly spaced vertices: one in each cell of a grid.
 Line_drawing arrow_strokes(const Camera& camera, const std::vector<Kernel::Point_3>& points,
                            const std::array<const std::vector<double>*, 3>& columns);
 

@@ -63,7 +63,7 @@ Surface_paint::Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const 
 
 Light Surface_paint::operator()(const std::array<std::uint32_t, 3>& triangle,
                                 const std::array<double, 3>& weights) const {
-  double curvature = 0; // of the corners where it is known
+  double curvature = 0; // interpolated from the corners where it is known
   for (std::size_t k = 0; k < 3 && !sides_.empty(); ++k)
     if (!std::isnan(sides_[triangle[k]])) curvature += weights[k] * sides_[triangle[k]];
   Weighted_level all, same_side;
@@ -77,8 +77,7 @@ Light Surface_paint::operator()(const std::array<std::uint32_t, 3>& triangle,
       if (is_convex(vertex) == (curvature >= 0)) same_side.add(level, doubt, weights[k]);
     } else irregular[code] += weights[k];
   }
-  if (all.weight > 0 && can_have_line(triangle))
-    irregular[std::size_t(Point_status::PARABOLIC)] = 0; // a line shows them
+  if (all.weight > 0 && can_have_line(triangle)) irregular[std::size_t(Point_status::PARABOLIC)] = 0; // shown by a line
   const auto most = std::max_element(irregular.begin(), irregular.end());
   if (*most > all.weight) {
     const auto code = std::size_t(most - irregular.begin());
@@ -105,7 +104,7 @@ CGAL::IO::Color Surface_paint::color_of_code(std::size_t code) const {
   return code < number_of_point_statuses ? status_color(static_cast<Point_status>(code)) : undefined_color();
 }
 
-/// A status is shown where there is no number only.
+/// A status is shown only where there is no number.
 void Surface_paint::find_codes(const Vertex_attributes& attributes) {
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     const auto status = attributes.status ? std::uint8_t((*attributes.status)[i]) : std::uint8_t(0);
@@ -113,7 +112,7 @@ void Surface_paint::find_codes(const Vertex_attributes& attributes) {
   }
 }
 
-/// Returns whether the Gaussian curvature is known at all corners, so that a line shows where it is zero.
+/// Whether the Gaussian curvature is known at all corners, so that a line shows its zeros.
 bool Surface_paint::can_have_line(const Triangle& triangle) const {
   return !sides_.empty() && std::none_of(triangle.begin(), triangle.end(),
                                          [&](std::uint32_t vertex) { return std::isnan(sides_[vertex]); });

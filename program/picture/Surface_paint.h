@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The colors of a surface in a picture, and the notes and numbers that explain them.
+// The colors of a surface in a picture, their legend, and notes.
 #ifndef EQUIAFFINE_PROGRAM_PICTURE_SURFACE_PAINT_H
 #define EQUIAFFINE_PROGRAM_PICTURE_SURFACE_PAINT_H
 
@@ -20,19 +20,19 @@
 
 namespace equiaffine {
 
-/// A line of text below a picture, beside the color of a number if it has one.
+/// A line of text below a picture, optionally beside the color of a number.
 struct Surface_note {
   std::optional<double> number;
   std::string text;
 };
 
-/// The numbers that the colors of a picture stand for.
+/// The meaning of the color bar.
 struct Color_legend {
-  std::string label; ///< the name of the number, with its unit if that is known
+  std::string label; ///< the name of the quantity, with its unit if known
   Color_mapping mapping;
 };
 
-/// The meaning of a color that no color bar shows, or a text without a color.
+/// The meaning of a color that is not on the color bar, or a text without a color.
 struct Color_note {
   std::optional<CGAL::IO::Color> color;
   std::string text;
@@ -43,24 +43,24 @@ Light light_of(const CGAL::IO::Color& color);
 /// The color of a surface at its vertices and between them.
 class Surface_paint {
 public:
-  /// Adds notes on unknown numbers, unless `has_notes`: the notes of a fit cover every quantity.
+  /// Adds notes on uncertain values unless `has_notes`: the notes of a fit cover every quantity.
   Surface_paint(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                 const Display_options& options, bool has_notes = false);
 
-  /// Is set if there is a vertex whose color shows a number.
+  /// Set if the color of a vertex shows a number.
   const std::optional<Color_legend>& legend() const { return legend_; }
 
-  /// One for each other color that the surface has somewhere, the most important one first.
+  /// One note for each other color of the surface, the most important one first.
   const std::vector<Color_note>& notes() const { return notes_; }
 
-  /// The color at barycentric weights, as on the page: vertices with a number compete by their weights with those that
-  /// have none, of each status; the number is interpolated between the vertices that have one. A number that does not
-  /// exist on a parabolic curve is interpolated on each side of it from the vertices of that side only. Colors are
-  /// grayer where the estimated error is larger.
+  /// The color at barycentric weights, as on the page. Vertices with a number compete by their total weight with those
+  /// of each status without a number; the number is interpolated between the vertices that have one. A number that is
+  /// undefined on parabolic curves is interpolated on each side only from the vertices of that side. Colors are grayer
+  /// where the estimated error is larger.
   Light operator()(const std::array<std::uint32_t, 3>& triangle, const std::array<double, 3>& weights) const;
 
-  /// The sides of the vertices (`Parabolic_parts::sides`), if the number does not exist where the Gaussian curvature
-  /// changes its sign; else empty.
+  /// The sides of the vertices (`Parabolic_parts::sides`), if the number is undefined where the Gaussian curvature
+  /// changes its sign; otherwise empty.
   const std::vector<double>& sides() const { return sides_; }
 
 private:
@@ -87,12 +87,12 @@ private:
   CGAL::IO::Color color_of_code(std::size_t code) const;
 
   std::vector<double> numbers_;     // per vertex, interpolated in spots
-  std::vector<std::uint8_t> codes_; // per vertex 0 if it has a number, else its status or no_number; empty: all 0
-  std::vector<double> levels_;      // the number of each vertex as a place in [0, 1]
+  std::vector<std::uint8_t> codes_; // per vertex: 0 if it has a number, else its status or no_number; empty: all 0
+  std::vector<double> levels_;      // per vertex: the position of its number on the color bar, in [0, 1]
   std::vector<double> sides_;
-  std::vector<double> doubts_; // color_doubt per vertex, if errors are known
+  std::vector<double> doubts_; // per vertex: color_doubt, if errors are known
   std::vector<Light> table_;
-  bool shows_status_ = false; // and no number
+  bool shows_status_ = false; // instead of a number
   std::optional<Color_legend> legend_;
   std::vector<Color_note> notes_;
 };

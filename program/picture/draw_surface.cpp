@@ -23,8 +23,8 @@ namespace equiaffine {
 
 namespace {
 
-/// The part of the box, seen along an axis, that is covered by the convex hull of the lowest points.
-double part_of_foot(const std::vector<Kernel::Point_3>& points, const CGAL::Bbox_3& box, int axis) {
+/// The fraction of the box, seen along an axis, that the convex hull of the lowest points covers.
+double fraction_covered_by_base(const std::vector<Kernel::Point_3>& points, const CGAL::Bbox_3& box, int axis) {
   constexpr double part_of_height = 0.03;
   const int across = (axis + 1) % 3, along = (axis + 2) % 3;
   const auto span = [&](int k) { return box.max(k) - box.min(k); };
@@ -45,7 +45,7 @@ std::array<double, 3> natural_up(const std::vector<Kernel::Point_3>& points) {
   constexpr double least = 0.1, wider = 2;
   CGAL::Bbox_3 box;
   for (const Kernel::Point_3& p : points) box += p.bbox();
-  const double y = part_of_foot(points, box, 1), z = part_of_foot(points, box, 2);
+  const double y = fraction_covered_by_base(points, box, 1), z = fraction_covered_by_base(points, box, 2);
   if (z >= least && z >= wider * y) return {0, 0, 1};
   return {0, 1, 0};
 }
@@ -54,7 +54,7 @@ namespace {
 
 using Vector = Kernel::Vector_3;
 
-/// The attributes nx ny nz; where they are missing, means of the normals of the faces.
+/// The normals nx ny nz; where they are missing, means of the normals of the faces.
 std::vector<Vector> vertex_normals(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes) {
   std::vector<Vector> normals(mesh.points.size(), CGAL::NULL_VECTOR);
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -71,8 +71,8 @@ std::vector<Vector> vertex_normals(const Indexed_triangle_mesh_3<Kernel>& mesh, 
   return normals;
 }
 
-/// The normals by which the corners of triangles are lit: where a triangle bends away from the normal of a corner, as
-/// at a crease, the mean over the triangles there that do not bend away from it.
+/// The normals for shading the corners of triangles. If the normal of a vertex deviates from that of a triangle, as at
+/// a crease, the corner gets the mean over the adjacent triangles that do not deviate from this triangle.
 std::vector<std::array<Vector, 3>> corner_normals(const Indexed_triangle_mesh_3<Kernel>& mesh,
                                                   const std::vector<Vector>& normals) {
   const double greatest_bend = std::cos(40 * std::numbers::pi / 180);
@@ -99,7 +99,7 @@ std::vector<std::array<Vector, 3>> corner_normals(const Indexed_triangle_mesh_3<
   return result;
 }
 
-/// The light of the page's shader.
+/// The shading of the page.
 Light lit(const Light& base, const Vector& normal, const Vector& view, bool is_front) {
   static const Vector source = unit(Vector(-0.35, 0.5, 1));
   const Vector n = (is_front ? 1. : -1.) / std::sqrt(std::max(normal.squared_length(), 1e-30)) * normal;
@@ -111,7 +111,7 @@ Light lit(const Light& base, const Vector& normal, const Vector& view, bool is_f
   return light;
 }
 
-/// A mesh, or points, from the place of a camera.
+/// A mesh, or points, as seen by a camera.
 class Seen_surface {
 public:
   Seen_surface(const Camera& camera, const Indexed_triangle_mesh_3<Kernel>& mesh, const std::vector<Vector>& normals)
@@ -142,7 +142,7 @@ public:
   }
 
 private:
-  /// Draws points as discs that cover a third of the picture together, of some pixels at most.
+  /// Draws points as discs with a radius of 1 to 4 pixels, smaller for more points.
   void draw_points(Canvas& canvas, const Surface_paint& paint) const {
     const double radius = std::clamp(180 / std::sqrt(double(places_.size())), 1., 4.);
     for (std::uint32_t i = 0; i < places_.size(); ++i) {
@@ -156,11 +156,11 @@ private:
 
   std::span<const std::array<std::uint32_t, 3>> triangles_;
   std::vector<Screen_point> places_;
-  std::vector<std::array<Vector, 3>> normals_;    // of the corners of triangles, in the directions of the camera
-  std::vector<Vector> views_, normals_of_points_; // in the same directions
+  std::vector<std::array<Vector, 3>> normals_;    // of the corners of triangles, in camera coordinates
+  std::vector<Vector> views_, normals_of_points_; // in camera coordinates
 };
 
-/// The text in lines that are no wider than a picture, broken between words, by the mean width of a letter.
+/// Breaks the text between words into lines that fit the picture, by the mean width of a letter.
 std::vector<std::string> lines_of(std::string_view text, std::size_t width) {
   constexpr std::size_t letter_width = 8, margins = 40;
   const std::size_t most = std::max<std::size_t>(width, 5 * margins) / letter_width - margins / letter_width;
@@ -174,7 +174,7 @@ std::vector<std::string> lines_of(std::string_view text, std::size_t width) {
   return lines;
 }
 
-/// The given notes, then those of the paint, which are left out first where there is no room.
+/// The given notes, then those of the paint, which are dropped first if there is no room.
 std::vector<Color_note> notes_from_bottom(std::span<const Surface_note> given, std::size_t width,
                                           const Surface_paint& paint) {
   std::vector<Color_note> notes;

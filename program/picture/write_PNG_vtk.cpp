@@ -50,32 +50,32 @@ void draw_text(Picture& picture, const std::string& text, std::size_t x, std::si
     }
 }
 
-/// Writes a number with as many digits, at least three, as tell the numbers of the bar from one another.
+/// Writes a number with enough digits, at least three, to distinguish the numbers on the bar.
 std::string short_number(double value, const Color_range& range) {
   const double largest = std::max(std::abs(range.lower), std::abs(range.upper));
   const int digits = std::clamp(int(std::ceil(std::log10(largest / (range.upper - range.lower)))) + 3, 3, 15);
   const bool is_round =
-      digits < 5 && std::abs(value) >= 1e3 && std::abs(value) < 1e5; // then digits need no more room than exponents
+      digits < 5 && std::abs(value) >= 1e3 && std::abs(value) < 1e5; // digits are then no longer than an exponent
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), is_round ? "%.*f" : "%.*g", is_round ? 0 : digits, value);
   return text.data();
 }
 
-/// The place of a number on the bar, in [0, 1].
+/// The position of a number on the bar, in [0, 1].
 double place_on_bar(double number, const Color_mapping& mapping) {
   const double t = mapping.position(number);
   return mapping.range.is_diverging ? (t + 1) / 2 : t;
 }
 
-/// Numbers with their places on the bar: equal parts of a linear one, else round numbers a `most`-th of the bar apart
-/// or more, the greatest first, or the ends where there are less than two.
+/// Tick values with their positions: equally spaced on a linear bar; otherwise round numbers, the largest first, at
+/// least 1/`most` of the bar apart, or the ends if there are fewer than two of them.
 std::vector<std::pair<double, double>> ticks(const Color_mapping& mapping, std::size_t most) {
   const auto& [lower, upper, knee, is_diverging] = mapping.range;
   std::vector<std::pair<double, double>> result;
   if (mapping.scale == Color_scale::LINEAR) {
     for (std::size_t i = 0; i <= most; ++i) {
       const double t = double(i) / double(most);
-      const bool is_zero = is_diverging && 2 * i == most; // the formula gives it up to rounding only
+      const bool is_zero = is_diverging && 2 * i == most; // exactly, without rounding errors
       result.emplace_back(is_zero ? 0 : lower + t * (upper - lower), t);
     }
     return result;
@@ -107,7 +107,7 @@ void fill(Picture& picture, std::size_t left, std::size_t top, std::size_t width
     }
 }
 
-/// Writes the text in the row above `bottom`, beside its color if it has one.
+/// Writes the note in the row above `bottom`, beside its color if it has one.
 void draw_note(Picture& picture, const Color_note& note, std::size_t bottom) {
   if (note.color) fill(picture, margin, bottom - note_height / 2, 2 * bar_height, 2, *note.color);
   const std::size_t left = note.color ? margin + 2 * bar_height + 8 : margin;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The options of a source: what it is, how it is read, and how it becomes a function.
+// The options of a source: its kind, how to read it, and how to make it a function.
 #ifndef EQUIAFFINE_PROGRAM_REQUEST_SOURCE_OPTIONS_H
 #define EQUIAFFINE_PROGRAM_REQUEST_SOURCE_OPTIONS_H
 
@@ -27,26 +27,25 @@ namespace equiaffine {
 inline constexpr std::array<std::string_view, 10> raw_types = {"uint8", "int8",   "uint16", "int16", "uint32",
                                                                "int32", "uint64", "int64",  "float", "double"};
 
-/// The facts about a file of samples that would be in a header, for a file without one.
+/// What a header would contain, for a file of samples without one.
 struct Raw_layout {
   std::array<std::size_t, 3> dims = {};
   std::array<double, 3> spacing = {1, 1, 1}, origin = {0, 0, 0};
   std::size_t type = 0; ///< the position in raw_types
 };
 
-/// What is read of a file with volumes, beside those that it says itself.
+/// What to read from a volume file with a header.
 struct Volume_selection {
-  std::optional<std::size_t> component = {},
-                             time = {}; ///< the number per node and the volume of a 4D file, counted from 1
-  bool allow_outside = false;           ///< whether a header may name files outside of its folder
+  std::optional<std::size_t> component = {}, time = {}; ///< of a node's values, and of a 4D file, counted from 1
+  bool allow_outside = false;                           ///< whether a header may name files outside of its folder
 };
 
 enum class Source_kind { FUNCTION, VOLUME, DISTANCE, FIT };
 
-/// The origin of derivatives: the formula or the fit itself, or a spline through samples.
+/// Where derivatives come from: the formula or the fit itself, or a spline through samples.
 enum class Derivatives { JETS, SPLINE };
 
-/// SOURCE of the command line, with what changes the function itself.
+/// SOURCE of the command line, with the options that change the function.
 struct Source_options {
   Source_kind kind = Source_kind::FUNCTION;
   std::string text; ///< the expression, or the path of the volume, mesh or points
@@ -58,13 +57,13 @@ struct Source_options {
   Volume_options spline;
   Fit_options fit;
   bool estimates_errors = false; ///< whether the errors of affine curvatures are estimated
-  bool is_registered = false;    ///< whether few data are no error, and registration needs an unsmoothed spline, too
-  std::optional<Raw_layout> raw; ///< is set for a volume without a header
-  Volume_selection selection;    ///< what is read of a volume with a header
+  bool is_registered = false;    ///< allow few data, and also make the unsmoothed spline that registration needs
+  std::optional<Raw_layout> raw; ///< set for a volume without a header
+  Volume_selection selection;    ///< for a volume with a header
   Memory_use memory_use = Memory_use::HALF;
-  std::optional<double> narrow_band; ///< distances are not needed beyond so many voxels
+  std::optional<double> narrow_band; ///< the distance in voxels beyond which distances are not needed
   std::optional<CGAL::Aff_transformation_3<Kernel>> transformation;
-  /// These return data that are in memory already: then `text` is only their name, and no file is read.
+  /// If set, these return data in memory: then `text` is only their name, and no file is read.
   std::function<Volume_view_3<Kernel>()> volume;
   std::function<Annotated_mesh_3<Kernel>()> data;
 };

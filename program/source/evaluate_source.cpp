@@ -26,7 +26,7 @@ namespace {
 
 using Tag = CGAL::Parallel_if_available_tag;
 
-/// The attributes that are norms of gradients, which do not depend on the estimator.
+/// The attributes that are norms of gradients; they do not depend on the estimator.
 Attribute_selection gradients_of(const Attribute_selection& selection) {
   Attribute_selection gradients = {{}, false};
   for (const Attribute& attribute : selection.columns)
@@ -87,7 +87,7 @@ Isosurface_3<Kernel> isosurface_of_source(const Source_function& function, doubl
 Vertex_attributes attributes_of_source(const Source_function& function, Orientation_of_level_set orientation,
                                        std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
                                        Estimator estimator, const Sampled_vertices& sampled) {
-  const double isovalue = 0; // attributes do not depend on it
+  const double isovalue = 0; // irrelevant for attributes
   return std::visit(
       [&]<class Traits>(const Traits& f) {
         const Level_set_traits_3<Traits> level_set(f, isovalue, orientation);

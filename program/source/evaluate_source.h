@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A source at many points, in threads. Formulas and splines use the vector instructions of the processor, but with the
-// paper's estimators. Fits do not: their linear algebra would sum in another order for each instruction set.
+// Evaluates a source at many points in parallel. Formulas and splines use vector instructions, except with the paper's
+// estimators. Fits do not, since the order of sums in their linear algebra would depend on the instruction set.
 #ifndef EQUIAFFINE_PROGRAM_SOURCE_EVALUATE_SOURCE_H
 #define EQUIAFFINE_PROGRAM_SOURCE_EVALUATE_SOURCE_H
 
@@ -16,17 +16,17 @@
 
 namespace equiaffine {
 
-/// Runs Marching Cubes, for samples on their lattice.
+/// Runs Marching Cubes; for samples, on their lattice.
 Isosurface_3<Kernel> isosurface_of_source(const Source_function& function, double isovalue,
                                           const Marching_cubes_options& options);
 
-/// Attributes at a point are those of the level set through it, whatever the value of f there. `sampled` is as in
+/// Returns attributes of the level set through each point, whatever the value of f there. For `sampled` see
 /// compute_attributes().
 Vertex_attributes attributes_of_source(const Source_function& function, Orientation_of_level_set orientation,
                                        std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
                                        Estimator estimator, const Sampled_vertices& sampled = {});
 
-/// The greatest distance of points from the level set, to first order.
+/// The maximum distance of the points from the level set, to first order.
 double max_distance_to_source(const Source_function& function, double isovalue, Orientation_of_level_set orientation,
                               std::span<const Kernel::Point_3> points, std::span<const Point_status> status);
 

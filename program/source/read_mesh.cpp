@@ -49,7 +49,7 @@ Triangle_soup to_soup(const Indexed_triangle_mesh_3<Kernel>& mesh) {
 
 bool repeats_a_point(const std::vector<std::size_t>& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// The triangles with a common orientation, cut where they form no surface; nothing if that is not enough.
+/// The consistently oriented triangles, cut open where they are not a manifold; empty if they still form no surface.
 CGAL::Surface_mesh<Kernel::Point_3> oriented_surface(Triangle_soup soup) {
   CGAL::Surface_mesh<Kernel::Point_3> mesh;
   if (std::any_of(soup.triangles.begin(), soup.triangles.end(), repeats_a_point)) return mesh;
@@ -73,12 +73,13 @@ CGAL::Surface_mesh<Kernel::Point_3> to_surface(const Indexed_triangle_mesh_3<Ker
                         "correct or remove it");
   }
   CGAL::Surface_mesh<Kernel::Point_3> mesh = oriented_surface(soup);
-  if (mesh.is_empty() || !CGAL::is_closed(mesh)) { // points of a closed surface may coincide
+  if (mesh.is_empty() || !CGAL::is_closed(mesh)) { // equal points of a closed surface stay separate
     pmp::repair_polygon_soup(soup.points, soup.triangles);
     mesh = oriented_surface(std::move(soup));
   }
   if (mesh.is_empty())
-    fail_to_read_mesh(path, "its faces do not form a surface", "repair it so that two faces meet at every edge");
+    fail_to_read_mesh(path, "its faces do not form a surface",
+                      "repair the mesh so that at most two faces meet at every edge");
   return mesh;
 }
 
@@ -101,8 +102,8 @@ CGAL::Surface_mesh<Kernel::Point_3> read_triangle_mesh(const std::string& path) 
   case File_format::OBJ:
   case File_format::STL: return to_surface(read_points<Kernel>(path).mesh, path);
   default:
-    open_input(path); // a folder or a missing file is called that
-    fail_to_read_mesh(path, "its extension is not known", "use one of .off .ply .obj .stl");
+    open_input(path); // throws for a folder or a missing file
+    fail_to_read_mesh(path, "unknown extension", "use one of .off .ply .obj .stl");
   }
 }
 
@@ -121,7 +122,7 @@ Point_table_3<Kernel> read_any_vertices(const std::string& path) {
   case File_format::OFF:
   case File_format::CSV:
   case File_format::XYZ: return read_points<Kernel>(path);
-  default: fail(path, "its extension is not known", "use one of .ply .off .obj .stl for a mesh, .csv .xyz for points");
+  default: fail(path, "unknown extension", "use one of .ply .off .obj .stl for a mesh, .csv .xyz for points");
   }
 }
 
@@ -157,8 +158,8 @@ void check_vertices(const std::vector<Kernel::Point_3>& points, const std::strin
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
   if (internal::Extent_of_fit::has(diagonal)) return;
   std::ostringstream reason;
-  reason << "its points lie in a box with the diagonal " << diagonal << ", and fits work with "
-         << internal::Extent_of_fit::least << " to " << internal::Extent_of_fit::greatest;
+  reason << "the diagonal of its bounding box is " << diagonal << ", and fits need " << internal::Extent_of_fit::least
+         << " to " << internal::Extent_of_fit::greatest;
   fail(path, reason.str(), "choose another unit");
 }
 

@@ -39,7 +39,7 @@ namespace {
 
 using Size = Lattice_3<Kernel>::Size;
 
-/// Throws unless every name of the constants occurs in the formula. The formula itself must have no errors.
+/// Throws if the name of a constant does not occur in the formula, which must be valid.
 void check_constants_are_used(const Source_options& options) {
   for (const auto& [name, value] : options.constants) {
     auto others = options.constants;
@@ -47,14 +47,14 @@ void check_constants_are_used(const Source_options& options) {
     try {
       Expression_3(options.text, others);
     } catch (const Input_error&) {
-      continue; // the formula needs this name
+      continue; // the name is used
     }
-    throw Input_error(option_text("constants " + name) + ": the formula " + options.text + " has no '" + name +
-                      "'; correct the name or leave it out");
+    throw Input_error(option_text("constants " + name) + ": the formula " + options.text + " does not contain '" +
+                      name + "'; correct the name or leave it out");
   }
 }
 
-/// Describes a source whose file, if it has one, is called `file`.
+/// Describes a source; `file` is the name of its file, if it has one.
 std::string describe_as(const Source_options& options, const std::string& file) {
   switch (options.kind) {
   case Source_kind::FUNCTION: return "the formula " + options.text;
@@ -76,13 +76,13 @@ Expression_3 parse_formula(const Source_options& options) {
 }
 
 Formula_traits make_formula(const Source_options& options) {
-  // Without a box nothing will be sampled: points are given, and the box is not looked at.
+  // Without a box the formula is only evaluated at given points, and the box is not used.
   Expression_3 expression = parse_formula(options);
   check_constants_are_used(options);
   return {std::move(expression), options.box.value_or(CGAL::Bbox_3(-1, -1, -1, 1, 1, 1))};
 }
 
-/// The fit in the box of the options, or in that of the data, and near the data.
+/// The fit, restricted to the box of the options or of the data, and to a band around the data.
 Fit_traits placed_fit(const Fit_traits& fit, const Source_options& options, const std::vector<Kernel::Point_3>& data,
                       double radius) {
   const CGAL::Bbox_3 box = options.box ? *options.box : internal::widened_box(data);
@@ -90,15 +90,15 @@ Fit_traits placed_fit(const Fit_traits& fit, const Source_options& options, cons
   return fit.in_box(box).in_band(internal::height_of_band(nodes, box, radius));
 }
 
-/// Fits the vertices of a mesh or points. Nothing is known of too few points, which is an error unless they are
-/// registered: then no map is found.
+/// Fits the vertices of a mesh or points. Too few points are an error, except for registration, which then finds no
+/// map.
 Fit_traits make_fit(const Source_options& options, const Point_table_3<Kernel>& table, double radius,
                     Progress& progress) {
   progress.begin("fitting polynomials");
   const Fit_traits fit = blend_vertices(table, options.fit);
   if (fit.bbox() == CGAL::Bbox_3() && !options.is_registered)
     throw Input_error("cannot make " + describe_as(options, options.text) +
-                      ": no point has enough others around it for a polynomial; give more points" +
+                      ": no point has enough neighbors to fit a polynomial; give more points" +
                       (options.fit.scale ? ", a larger " + option_text("scale") : "") +
                       (options.fit.scale || options.fit.degree ? " or a smaller " + option_text("degree") : ""));
   warn_of_opposed_normals(table, progress);
@@ -116,7 +116,7 @@ Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size
   progress.begin("reading the mesh");
   const CGAL::Surface_mesh<Kernel::Point_3> mesh = read_triangle_mesh(options.text);
   const Lattice_3<Kernel> lattice(size, options.box ? *options.box : internal::widened_box(mesh.points()));
-  progress.begin("measuring distances", lattice.number_of_nodes());
+  progress.begin("computing distances", lattice.number_of_nodes());
   try {
     double longest_step = 0;
     for (const auto& step : lattice.steps()) longest_step = std::max(longest_step, std::sqrt(step.squared_length()));
@@ -124,11 +124,11 @@ Volume_3<Kernel> sample_distance(const Source_options& options, const Size& size
     return signed_distance_volume<CGAL::Parallel_if_available_tag>(
         mesh, lattice, [&](std::size_t nodes) { progress.advance(nodes); }, voxels * longest_step);
   } catch (const Input_error& error) {
-    throw Input_error("cannot measure " + describe_as(options, options.text) + ": " + error.what());
+    throw Input_error("cannot compute " + describe_as(options, options.text) + ": " + error.what());
   }
 }
 
-/// Throws if values are missing and the scheme is interpolation, whose recursive filter would spread them everywhere.
+/// Throws if values are missing and the scheme is interpolation: its recursive filter would spread NaN to all nodes.
 void check_values(const Volume_view_3<Kernel>& volume, const Source_options& options) {
   if (options.spline.spline_scheme != Spline_scheme::INTERPOLATION) return;
   const auto [nx, ny, nz] = volume.lattice().size();
@@ -141,21 +141,21 @@ void check_values(const Volume_view_3<Kernel>& volume, const Source_options& opt
     }
   if (missing > 0)
     throw Input_error(option_text("spline_scheme") + ": interpolation needs a value at every node, and " +
-                      describe_as(options, options.text) + " has " + std::to_string(missing) +
-                      " nodes without one; use quasi-interpolation");
+                      describe_as(options, options.text) + " has no value at " + std::to_string(missing) +
+                      (missing == 1 ? " node" : " nodes") + "; use quasi-interpolation");
 }
 
-/// Throws if the steps of the grid are so short or long that a spline on it has no derivatives in double precision.
+/// Throws if the steps of the grid are so short or long that derivatives of a spline on it leave double precision.
 void check_steps(const Lattice_3<Kernel>& lattice, const Source_options& options) {
   using Spline = Spline_function_3<Kernel>;
   for (const auto& step : lattice.steps()) {
     const double length = std::hypot(step.x(), step.y(), step.z());
     if (Spline::shortest_step <= length && length <= Spline::longest_step) continue;
     std::ostringstream text;
-    text << describe_as(options, options.text) << " has a grid with steps of the length " << length
-         << ", by which fourth derivatives may leave the range of double precision; choose another unit, in which they "
-            "are from "
-         << Spline::shortest_step << " to " << Spline::longest_step << " long";
+    text << "the grid spacing of " << describe_as(options, options.text) << " is " << length
+         << ", so that fourth derivatives may leave the range of double precision; choose another unit, with spacings "
+            "from "
+         << Spline::shortest_step << " to " << Spline::longest_step;
     throw Input_error(text.str());
   }
 }
@@ -177,7 +177,7 @@ Fitted_spline fit_spline(const Source_options& source, Progress& progress) {
   }();
   check_values(volume, source);
   check_steps(volume.lattice(), source);
-  progress.begin("measuring noise");
+  progress.begin("estimating noise");
   const Smoothing_decision decision = decide_smoothing(volume, source.spline);
   progress.begin("fitting a spline");
   Volume_options options = source.spline;

@@ -46,7 +46,7 @@ namespace {
 
 using Point_with_normal = std::pair<Kernel::Point_3, Kernel::Vector_3>;
 
-/// The points with the normals in the columns nx, ny, nz. It is empty unless every point has one.
+/// The points with unit normals from the columns nx, ny, nz; empty unless every point has one.
 std::vector<Point_with_normal> points_with_normals(const Annotated_mesh_3<Kernel>& mesh) {
   const auto *x = find_column(mesh.attributes, "nx"), *y = find_column(mesh.attributes, "ny"),
              *z = find_column(mesh.attributes, "nz");
@@ -61,7 +61,7 @@ std::vector<Point_with_normal> points_with_normals(const Annotated_mesh_3<Kernel
   return result;
 }
 
-/// Calls `fit(parameters, data...)`, where the data are points and triangles, points with normals, or points.
+/// Calls `fit(parameters, data...)`, where the data are points and triangles, points with normals, or points alone.
 template <class Fit>
 auto fit_with_parameters(const Annotated_mesh_3<Kernel>& mesh, const Fit& fit) try {
   const auto none = parameters::default_values();
@@ -72,7 +72,7 @@ auto fit_with_parameters(const Annotated_mesh_3<Kernel>& mesh, const Fit& fit) t
                  .normal_map(CGAL::Second_of_pair_property_map<Point_with_normal>()),
              with_normals);
 } catch (const Input_error& error) {
-  if (error.field() != "scale") throw; // the command line has checked the other options
+  if (error.field() != "scale") throw; // other options were checked before
   throw Input_error(option_text("scale") + ": " + error.sentence());
 }
 

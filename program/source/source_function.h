@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The functions that sources become: formulas, splines and fits.
+// The functions of sources: formulas, splines and fits.
 #ifndef EQUIAFFINE_PROGRAM_SOURCE_SOURCE_FUNCTION_H
 #define EQUIAFFINE_PROGRAM_SOURCE_SOURCE_FUNCTION_H
 
@@ -31,7 +31,8 @@ namespace equiaffine {
 template <class>
 class Fitted_function_traits_3;
 
-/// A Fitted_function_traits_3 whose members are compiled once, so that few units read its header. Copies share the fit.
+/// A Fitted_function_traits_3 whose members are compiled once, to keep its header out of most translation units. Copies
+/// share the fit.
 class Fit_traits {
 public:
   using FT = double;
@@ -63,22 +64,22 @@ private:
   std::shared_ptr<const Fit> fit_;
 };
 
-/// Fits polynomials to the vertices of a mesh or to points, with all threads, and returns the structures there. The
-/// columns nx, ny, nz of points without faces are their normals, if each of them has a direction.
+/// Fits polynomials to the vertices of a mesh or to points in parallel, and returns the structures there. The columns
+/// nx, ny, nz of points without faces are their normals if none of them is zero.
 std::vector<Fitted_structure_3<double>> fit_vertices(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options,
                                                      Orientation_of_level_set orientation);
 
-/// Returns the part of points without faces whose normal, from the columns nx, ny, nz, is opposed to that of the
-/// nearest other point; 0 without normals.
+/// The fraction of points whose normal, from the columns nx, ny, nz, is opposite to that of the nearest other point; 0
+/// without normals or with faces.
 double part_with_opposed_normals(const Annotated_mesh_3<Kernel>& mesh);
 
-/// Blends polynomials fitted to the vertices of a mesh or to points, with all threads, into one function.
+/// Fits polynomials to the vertices of a mesh or to points in parallel, and blends them into one function.
 Fit_traits blend_vertices(const Annotated_mesh_3<Kernel>& mesh, const Fit_options& options);
 
 using Formula_traits = Analytic_function_traits_3<Kernel, Expression_3>;
 using Spline_traits = Sampled_function_traits_3<Kernel>;
 
-/// A source under the map of its `transformation`, which is the identity if there is none.
+/// A source under the map of its `transformation`, by default the identity.
 using Formula_function = Transformed_function_traits_3<Formula_traits>;
 using Spline_function = Transformed_function_traits_3<Spline_traits>;
 using Fit_function = Transformed_function_traits_3<Fit_traits>;
@@ -90,7 +91,7 @@ using Source_function = std::variant<Formula_function, Spline_function, Fit_func
 template <class Traits>
 inline constexpr bool is_fit = std::is_same_v<Traits, Fit_function>;
 
-/// The function whose zero set is a level set, behind one type, for what takes little time to run and long to compile.
+/// The function whose zero set is a level set, type-erased: for code whose compile time matters more than its speed.
 Any_function_3 any_level_set(const Source_function& function, double isovalue,
                              Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT);
 

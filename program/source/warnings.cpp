@@ -14,7 +14,7 @@ void warn_of_outside(const Source_options& options, const Source& source, std::s
                      const std::string& points, Progress& progress) {
   if (outside > 0 && source.fit)
     progress.warn(std::to_string(outside) + " of " + std::to_string(all) + ' ' + points +
-                  " are outside and have no attributes: a fit has values within some two spacings of the data only");
+                  " are outside and have no attributes: a fit is defined only within about two spacings of the data");
   if (outside == 0 || !source.spline) return;
   constexpr int least_degree = 5;
   const int degree = source.spline->degree;
@@ -22,23 +22,23 @@ void warn_of_outside(const Source_options& options, const Source& source, std::s
   std::ostringstream text;
   text << outside << " of " << all << ' ' << points << " are outside and have no attributes: ";
   if (nodes <= std::size_t(degree))
-    text << "a spline of degree " << degree << " needs " << degree + 1 << " nodes along each axis, and there are "
-         << nodes << " along one; "
-         << (nodes > least_degree ? by_front_end("use --spline-degree 5 or", "give") : "give") << " more nodes";
+    text << "a spline of degree " << degree << " needs " << degree + 1 << " nodes along each axis, and one axis has "
+         << nodes << "; " << (nodes > least_degree ? by_front_end("use --spline-degree 5 or", "give") : "give")
+         << " more nodes";
   else if (options.narrow_band)
-    text << "distances are known in the band of " << option_text("narrow_band") << ' ' << *options.narrow_band
-         << " only; give a larger one or leave it out";
+    text << "distances are computed only within " << option_text("narrow_band") << ' ' << *options.narrow_band
+         << "; give a larger band or leave it out";
   else if (options.kind == Source_kind::VOLUME)
-    text << "nothing is known outside of the volume and within " << degree << " voxels of a node without a value"
-         << (source.spline->smoothing > 0 ? ", or more since samples are smoothed" : "");
+    text << "the spline is undefined outside the volume and within " << degree << " voxels of a node without a value"
+         << (source.spline->smoothing > 0 ? ", or more because samples are smoothed" : "");
   else return;
   progress.warn(text.str());
 }
 
 void warn_of_steps(const Spline_statistics& spline, Progress& progress) {
   if (spline.smoothing > 0 || !spline.distinct_values) return;
-  progress.warn("the samples have " + std::to_string(*spline.distinct_values) +
-                " distinct values only, and curvatures are those of the steps between them; smooth the samples, " +
+  progress.warn("the samples have only " + std::to_string(*spline.distinct_values) +
+                " distinct values, so that curvatures are those of the steps between them; smooth the samples, " +
                 option_text("smoothing", "auto"));
 }
 
@@ -52,31 +52,30 @@ bool has_affine_curvatures(const Attribute_selection& attributes, const std::vec
 
 namespace {
 
-/// What follows "20 % of the vertices".
+/// The words after "20 % of the vertices".
 std::string sentence_of_doubt(Fit_doubt reason, const Fit_statistics& fit, const Fit_options& options, bool are_data) {
   const std::string larger_scale = options.scale ? ", or a larger " + option_text("scale") : "";
   const std::string without_none = options.scale == 0. ? "leave out " + option_text("scale", "none") + ", or " : "";
-  const std::string error = "have an estimated error of the affine Gaussian curvature of more than 50 %, most of it ";
+  const std::string error = "have an estimated error of the affine Gaussian curvature above 50 %, mostly ";
   if (reason == Fit_doubt::WITHOUT_FIT)
-    return are_data
-               ? "have no fit, which needs 15 connected points or more around each; give more points" + larger_scale
-               : "have no curvatures: they are on creases, or where the data and the fit do not follow each other";
+    return are_data ? "have no fit, which needs at least 15 connected points nearby; give more points" + larger_scale
+                    : "have no curvatures: they are on creases, or the fit does not follow the data there";
   if (reason == Fit_doubt::NOISE)
     return error + (fit.scale
-                        ? "from noise and the distance of the points, too large for fourth derivatives at that scale; "
-                          "give a larger " +
+                        ? "from noise and spacing that are too large for fourth derivatives at that scale; give a "
+                          "larger " +
                               option_text("scale") +
                               " or more points, or use the affine area density or the affine normal, "
-                              "which need derivatives of order 2 and 3"
-                        : "from noise, which is too large for fourth derivatives; " + without_none +
+                              "which need only derivatives of order 2 and 3"
+                        : "from noise that is too large for fourth derivatives; " + without_none +
                               "give points with less noise");
   return fit.scale
-             ? "have no curvature at that scale, since fewer points are within it than a polynomial needs; give a "
+             ? "have no curvature at that scale, which contains fewer points than a polynomial needs; give a "
                "larger " +
                    option_text("scale") + " or more points"
              : error +
-                   "since fits disagree: the surface has detail, creases or contradictions between too few "
-                   "points; " +
+                   "because fits disagree: the points are too few for the detail, creases or inconsistencies of the "
+                   "surface; " +
                    without_none + "give more points";
 }
 
@@ -93,15 +92,11 @@ void warn_of_close_sheets(const Close_sheets& sheets, Progress& progress) {
   if (sheets.points == 0) return;
   constexpr std::size_t finest = 4096;
   std::ostringstream text;
-  text << sheets.points
-       << " points have another sheet of the surface nearer than the steps of the grid, which may make "
-       << "holes and fragments there: ";
-  if (sheets.resolution <= finest)
-    text << "sheets are " << sheets.distance << " apart; give "
-         << option_text("resolution", std::to_string(sheets.resolution));
-  else
-    text << "sheets are " << sheets.distance
-         << " apart, for which no grid is fine enough; remove one of them, or what both have twice";
+  text << sheets.points << (sheets.points == 1 ? " point is" : " points are")
+       << " nearer to another sheet of the surface than a step of the grid, which may cause holes and fragments: "
+       << "sheets are " << sheets.distance << " apart; ";
+  if (sheets.resolution <= finest) text << "give " << option_text("resolution", std::to_string(sheets.resolution));
+  else text << "no grid is fine enough, so remove duplicate sheets";
   progress.warn(text.str());
 }
 
@@ -110,8 +105,8 @@ void warn_of_opposed_normals(const Annotated_mesh_3<Kernel>& points, Progress& p
   const double part = part_with_opposed_normals(points);
   if (!(part > tolerated)) return;
   progress.warn(std::to_string(std::lround(100 * part)) +
-                " % of the points have a normal opposed to that of the nearest other point; turn the normals so that "
-                "they agree, or leave out nx, ny and nz");
+                " % of the points have a normal opposite to that of the nearest point; orient the normals "
+                "consistently, or leave out nx, ny and nz");
 }
 
 } // namespace equiaffine

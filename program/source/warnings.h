@@ -16,26 +16,26 @@
 
 namespace equiaffine {
 
-/// Warns of points outside the samples where the reason is one that the user would not expect: a narrow band, fewer
-/// nodes than a spline needs, or points away from the data of a fit. `outside` of `all` points are; `points` is the
-/// word for them, such as "vertices".
+/// Warns that `outside` of `all` points are outside the samples or the data, if the user may not expect the reason: a
+/// narrow band, too few nodes for the spline, or distance from the data of a fit. `points` is the word for them, such
+/// as "vertices".
 void warn_of_outside(const Source_options& options, const Source& source, std::size_t outside, std::size_t all,
                      const std::string& points, Progress& progress);
 
-/// Warns if samples are not smoothed and have few distinct values, so that their curvatures are those of steps.
+/// Warns if unsmoothed samples have few distinct values: their curvatures are those of the steps.
 void warn_of_steps(const Spline_statistics& spline, Progress& progress);
 
-/// Whether columns depend on derivatives of order 3 or 4, so that what is known of affine curvatures concerns them.
+/// Whether columns depend on derivatives of order 3 or 4.
 bool has_affine_curvatures(const Attribute_selection& attributes, const std::vector<std::string>& estimates);
 
-/// Warns of the doubts_of() a fit. The vertices are those of the data or of a surface.
+/// Warns of the doubts_of() a fit. `are_data` states whether the vertices are those of the data or of a surface.
 void warn_of_doubt(const Fit_statistics& fit, const Fit_options& options, bool has_affine_curvatures, bool are_data,
                    Progress& progress);
 
-/// Warns if a grid does not tell sheets of the data of a fit apart.
+/// Warns if the grid is too coarse to separate sheets of the data of a fit.
 void warn_of_close_sheets(const Close_sheets& sheets, Progress& progress);
 
-/// Warns if the normals that come with points contradict each other.
+/// Warns if given normals of points are inconsistent.
 void warn_of_opposed_normals(const Annotated_mesh_3<Kernel>& points, Progress& progress);
 
 } // namespace equiaffine

@@ -35,14 +35,14 @@ struct Ranges {
   std::map<const void*, std::size_t> size_of;
 };
 
-/// They are never destroyed, since a thread may look at them until the process ends.
+/// Never destroyed, since a thread may use them until the process ends.
 Ranges*& ranges() {
   static Ranges* ranges = new Ranges;
   return ranges;
 }
 
-/// Has the pages come back one by one: in large ones they would come faster than they can be given back.
-void forgo_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t size) {
+/// Disables huge pages, which would be read faster than they can be released.
+void disable_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t size) {
 #ifdef __linux__
   ::madvise(memory, size, MADV_NOHUGEPAGE);
 #endif
@@ -60,12 +60,12 @@ void remove_reclaimable_memory(const void* first) {
   ranges()->size_of.erase(first);
 }
 
-void give_back_reclaimable_memory() {
+void release_reclaimable_memory() {
   const std::lock_guard guard(ranges()->mutex);
   for (const auto& [first, size] : ranges()->size_of) {
     void* const memory = const_cast<void*>(first);
     ::madvise(memory, size, MADV_DONTNEED);
-    forgo_large_pages(memory, size);
+    disable_huge_pages(memory, size);
   }
 }
 
@@ -103,27 +103,27 @@ namespace {
 constexpr std::size_t unit = std::size_t(1) << 16; ///< sizes are multiples of this, and so of a page
 constexpr std::size_t most_addresses = std::size_t(1) << 43;
 
-/// Part of the address space is set aside, and the memory at a place in it is what the file has at that place.
+/// A reserved range of the address space; the memory at an offset is mapped to the same offset in the file.
 struct Scratch {
   fs::path folder;
   std::size_t most_spare;
   std::byte* first; ///< of the part of the address space
   int file;         ///< its descriptor
-  std::size_t end;  ///< nothing was ever allocated from there on
+  std::size_t end;  ///< nothing was ever allocated beyond
   std::mutex mutex = {};
-  std::map<std::size_t, std::size_t> size_at = {};            ///< of what is allocated
-  std::multimap<std::size_t, std::size_t> spare_of_size = {}; ///< the places of what is freed, and kept
+  std::map<std::size_t, std::size_t> size_at = {};            ///< of allocated blocks, by offset
+  std::multimap<std::size_t, std::size_t> spare_of_size = {}; ///< the offsets of freed blocks that are kept
   std::size_t spare = 0;
-  std::size_t used = 0; ///< the bytes of what is allocated
+  std::size_t used = 0; ///< allocated bytes
   double most_used = std::numeric_limits<double>::infinity();
-  int error = 0; ///< why there was no room when memory could not be allocated, or 0
+  int error = 0; ///< of an allocation that failed for lack of room, or 0
 };
 
-std::atomic<Scratch*> scratch = nullptr; ///< is never destroyed, since memory is freed until the process ends
+std::atomic<Scratch*> scratch = nullptr; ///< never destroyed, since memory is freed until the process ends
 
 [[noreturn]] void fail_to_open(const fs::path& folder, const std::string& reason, const std::string& advice) {
-  throw Input_error(option_text("memory") + ": what does not fit is kept in a file in the folder '" + folder.string() +
-                    "', " + reason + "; " + advice);
+  throw Input_error(option_text("memory") + ": cannot keep data in a file in the folder '" + folder.string() +
+                    "': " + reason + "; " + advice);
 }
 
 int open_nameless_file_in(const fs::path& folder) {
@@ -133,14 +133,12 @@ int open_nameless_file_in(const fs::path& folder) {
 #endif
   std::string name = (folder / ".equiaffine-scratch-XXXXXX").string();
   const int file = ::mkstemp(name.data());
-  if (file == -1)
-    fail_to_open(folder, "and none can be made there (" + std::generic_category().message(errno) + ")",
-                 "choose another one for the output");
+  if (file == -1) fail_to_open(folder, std::generic_category().message(errno), "choose another folder for the output");
   ::unlink(name.c_str());
   return file;
 }
 
-/// Whether the file is in memory, where it would take what it is to spare.
+/// Whether the file is itself in memory, so that it saves none.
 bool is_in_memory([[maybe_unused]] int file) {
 #ifdef __linux__
   struct statfs facts;
@@ -150,8 +148,8 @@ bool is_in_memory([[maybe_unused]] int file) {
 #endif
 }
 
-/// Makes room in the file, for a disk that is full to be met here, not by a signal at the first write. Returns the
-/// number of the error, or 0.
+/// Allocates space in the file, so that a full disk is an error here, not a signal at the first write. Returns the
+/// error number, or 0.
 int make_room(const Scratch& s, std::size_t place, std::size_t size) {
   int error = EOPNOTSUPP;
 #ifdef __linux__
@@ -161,15 +159,15 @@ int make_room(const Scratch& s, std::size_t place, std::size_t size) {
   return error == EOPNOTSUPP || error == ENOSYS ? ::posix_fallocate(s.file, off_t(place), off_t(size)) : error;
 }
 
-/// Takes a part of the address space again, so that nothing else gets it.
-void set_aside(const Scratch& s, std::size_t place, std::size_t size) {
+/// Reserves a range of the address space again.
+void reserve_addresses(const Scratch& s, std::size_t place, std::size_t size) {
   ::mmap(s.first + place, size, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED, -1, 0);
 }
 
-/// Gives memory back to the file system.
+/// Returns the space to the file system.
 void release(const Scratch& s, std::size_t place, std::size_t size) {
   remove_reclaimable_memory(s.first + place);
-  set_aside(s, place, size);
+  reserve_addresses(s, place, size);
 #ifdef __linux__
   ::fallocate(s.file, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, off_t(place), off_t(size));
 #endif
@@ -181,14 +179,14 @@ void release_spare(Scratch& s) {
   s.spare = 0;
 }
 
-/// Allocates the memory before the end, which it moves. Returns the number of the error, or 0.
+/// Allocates memory at the end, and moves the end. Returns the error number, or 0.
 int allocate_at_end(Scratch& s, std::size_t size) {
   if (s.end + size > most_addresses) return ENOMEM;
   if (const int error = make_room(s, s.end, size); error != 0) return error;
   std::byte* const memory = s.first + s.end;
   if (::mmap(memory, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, s.file, off_t(s.end)) == MAP_FAILED)
     return errno;
-  ::madvise(memory, size, MADV_RANDOM); // pages read ahead would take the place of others
+  ::madvise(memory, size, MADV_RANDOM); // reading ahead would displace other pages
   add_reclaimable_memory(memory, size);
   s.size_at[s.end] = size;
   s.end += size;
@@ -201,8 +199,8 @@ void open_scratch_memory(const fs::path& folder, std::size_t spare) {
   const int file = open_nameless_file_in(folder);
   if (is_in_memory(file)) {
     ::close(file);
-    fail_to_open(folder, "which is in memory itself",
-                 "choose one on a disk for the output, or, for standard output, for temporary files by TMPDIR");
+    fail_to_open(folder, "it is itself in memory",
+                 "choose a folder on a disk for the output, or, for standard output, set TMPDIR to one");
   }
   void* const first = ::mmap(nullptr, most_addresses, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (first == MAP_FAILED) {
@@ -229,8 +227,9 @@ std::string lack_of_room_for_scratch_memory() {
   if (!s) return {};
   const std::lock_guard guard(s->mutex);
   if (s->error == 0) return {};
-  return option_text("memory") + ": the folder '" + s->folder.string() + "' has no room for what does not fit (" +
-         std::generic_category().message(s->error) + "), or files may not be that large (ulimit -f); make some";
+  return option_text("memory") + ": the folder '" + s->folder.string() +
+         "' has no room for data that do not fit into memory (" + std::generic_category().message(s->error) +
+         "); free space there, or raise the limit of file sizes (ulimit -f)";
 }
 
 bool has_scratch_memory() { return scratch.load(std::memory_order_acquire) != nullptr; }
@@ -284,7 +283,7 @@ void free_scratch_memory(void* memory) {
   const std::lock_guard guard(s.mutex);
   const auto place = std::size_t(static_cast<std::byte*>(memory) - s.first);
   const auto found = s.size_at.find(place);
-  if (found == s.size_at.end()) return; // a parent has it
+  if (found == s.size_at.end()) return; // it belongs to the parent
   const std::size_t size = found->second;
   s.size_at.erase(found);
   s.used -= size;

@@ -49,7 +49,7 @@ namespace {
 
 constexpr std::string_view prefix = ".equiaffine-temporary-", pattern = "XXXXXX";
 
-/// The temporary folders that exist. It is never destroyed, because a signal may come at any time.
+/// The existing temporary folders. Never destroyed, because a signal may come at any time.
 struct Existing_folders {
   std::mutex mutex;
   std::set<fs::path> paths;
@@ -60,7 +60,7 @@ Existing_folders& existing_folders() {
   return folders;
 }
 
-/// Opens a folder and locks it; -1 if somebody else has locked it or it cannot be opened.
+/// Opens a folder and locks it; -1 if another process has locked it or it cannot be opened.
 int lock(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (descriptor == -1 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
@@ -68,14 +68,14 @@ int lock(const fs::path& folder) {
   return -1;
 }
 
-/// Whether the open folder has the owner and the permissions of those that we make.
+/// Whether the open folder has the owner and the permissions of our temporary folders.
 bool is_ours(int descriptor) {
   struct stat facts;
   return ::fstat(descriptor, &facts) == 0 && facts.st_uid == ::geteuid() && (facts.st_mode & 07777) == S_IRWXU;
 }
 
 void remove_if_nobody_uses(const fs::path& folder) {
-  constexpr auto time_until_locked = std::chrono::minutes(1); // after its creation a folder is not locked yet
+  constexpr auto time_until_locked = std::chrono::minutes(1); // a new folder is not locked immediately
   std::error_code error;
   const auto time = fs::last_write_time(folder, error);
   if (error || fs::file_time_type::clock::now() - time < time_until_locked) return;
@@ -153,7 +153,7 @@ Output_file::Output_file(const std::string& path) : path_(path), target_(path), 
   try {
     folder_ = std::make_unique<Temporary_folder>(parent);
   } catch (const std::system_error& e) {
-    fail(path, "no file can be made in '" + parent.string() + "' (" + message(e.code().value()) + ")",
+    fail(path, "cannot create a file in '" + parent.string() + "' (" + message(e.code().value()) + ")",
          "choose another folder");
   }
 }
@@ -173,7 +173,7 @@ std::ostream& Output_file::stream() {
 void Output_file::close() {
   if (!stream_.is_open()) return;
   stream_.close();
-  if (!stream_) fail(path_, "not everything could be stored", "make room on the disk or choose another one");
+  if (!stream_) fail(path_, "not everything could be stored", "free space on the disk or choose another one");
 }
 
 void Output_file::commit() {
@@ -190,7 +190,7 @@ void Output_file::copy_to_target() {
   std::ostream& sink = is_standard_output() ? std::cout : device;
   if (source.peek() != std::ifstream::traits_type::eof()) sink << source.rdbuf();
   sink.flush();
-  if (!sink) fail(path_, "not everything was accepted", "make sure that the receiver is ready");
+  if (!sink) fail(path_, "it does not accept all data", "check the receiving program or device");
 }
 
 void Output_file::rename_to_target() {

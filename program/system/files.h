@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What names of files say, outputs that appear whole or not at all, and the temporary folders in which they are made.
+// File formats by extension, outputs that are written completely or not at all, and their temporary folders.
 #ifndef EQUIAFFINE_PROGRAM_SYSTEM_FILES_H
 #define EQUIAFFINE_PROGRAM_SYSTEM_FILES_H
 
@@ -12,7 +12,7 @@
 
 namespace equiaffine {
 
-/// The formats of files that are no volumes, for which there is Volume_format.
+/// The formats of files other than volumes; for those see Volume_format.
 enum class File_format {
   PLY,
   OFF,
@@ -28,20 +28,20 @@ enum class File_format {
   UNNAMED ///< the path has none
 };
 
-/// The format that the extension of a path stands for, in lower or upper case.
+/// The format of a path by its extension, in lower or upper case.
 File_format file_format(const std::string& path);
 
-/// The name of a file or folder without the folders above it, which others need not see. It is what files that
-/// are passed on, such as pages and statistics, call a source.
+/// The name of a file or folder without the folders above it. Pages and statistics contain only this name, since they
+/// may be passed on.
 inline std::string name_of_file(const std::filesystem::path& path) {
   const std::filesystem::path normal = path.lexically_normal();
   const std::filesystem::path last = normal.has_filename() ? normal.filename() : normal.parent_path().filename();
   return last.empty() ? path.string() : last.string();
 }
 
-/// A folder of its own name that is removed with this object, or by `remove_all_temporary_folders()`. A lock on it
-/// tells other processes that it is in use. The constructor removes those in the same place that nobody uses, which a
-/// process left that was killed; it throws `std::system_error` if the folder cannot be made.
+/// A folder with a unique name, which is removed with this object or by `remove_all_temporary_folders()`, and locked
+/// while in use. The constructor also removes unused folders that killed processes left in the same place; it throws
+/// `std::system_error` if the folder cannot be created.
 class Temporary_folder {
 public:
   explicit Temporary_folder(const std::filesystem::path& parent);
@@ -56,15 +56,14 @@ private:
   int lock_ = -1;
 };
 
-/// Removes the temporary folders of this process, which is about to end: threads that make or remove one from now on
-/// wait for that end.
+/// Removes the temporary folders of this process just before its end: threads that create or remove one afterwards
+/// block.
 void remove_all_temporary_folders();
 
-/// An output that appears whole or not at all. What is written goes to a temporary folder beside the target, so that
-/// `commit()` is a rename; without `commit()` nothing remains. "-" is standard output; it and devices receive a copy.
-/// A file that is replaced hands on its permissions.
-/// The constructor already finds out whether the target can be written: make it before a long computation.
-/// Every member that can fail throws `Input_error`.
+/// An output that is written completely or not at all. Data go to a temporary folder beside the target, so that
+/// `commit()` is a rename; without `commit()` nothing remains. "-" is standard output; standard output and devices
+/// receive a copy. A replaced file keeps its permissions. Construct it before a long computation: the constructor
+/// checks whether the target can be written. Every member that can fail throws `Input_error`.
 class Output_file {
 public:
   explicit Output_file(const std::string& path);
@@ -73,20 +72,20 @@ public:
 
   bool is_standard_output() const { return path_ == "-"; }
 
-  /// Whether the target receives a copy: standard output and devices, which may refuse it.
+  /// Whether the target is standard output or a device, which receive a copy, and may refuse it.
   bool has_to_be_copied() const { return has_to_be_copied_; }
 
   /// The temporary file as a binary stream.
   std::ostream& stream();
 
-  /// The temporary file, for libraries that want a name: it has the target's name, and files written beside it (the
-  /// `.raw` of an `.mhd`) are committed with it.
+  /// The temporary file, for libraries that need a path. It has the target's name; files written beside it (the `.raw`
+  /// of an `.mhd`) are committed with it.
   std::filesystem::path temporary_path() const;
 
-  /// Ends writing to `stream()`; fails if not everything could be stored.
+  /// Closes `stream()`; fails if not everything could be stored.
   void close();
 
-  /// Closes and puts the output in place.
+  /// Closes the output and moves it into place.
   void commit();
 
 private:
@@ -100,14 +99,14 @@ private:
   std::ofstream stream_;
 };
 
-/// Commits several outputs after all of them were closed without error. Those that are renamed, which hardly fails,
-/// come last: a device that refuses its copy leaves every file as it was.
+/// Commits several outputs after closing all of them without error. Copies come first, since renames hardly fail: if a
+/// device refuses its copy, all files are unchanged.
 void commit_all(std::span<Output_file> files);
 
-/// Whether one of the files is standard output, where nothing else may be written then.
+/// Whether one of the files is standard output, which must then contain nothing else.
 bool use_standard_output(std::span<const Output_file> files);
 
-/// Tells people which files were written, a line each.
+/// Writes a line "wrote FILE" for each file.
 void report_written(std::ostream& out, std::span<const Output_file> files);
 
 } // namespace equiaffine

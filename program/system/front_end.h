@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How messages write options: as words of the command line, or as arguments of functions in Python.
+// The spelling of options in messages: words of the command line, or arguments of functions in Python.
 #ifndef EQUIAFFINE_PROGRAM_SYSTEM_FRONT_END_H
 #define EQUIAFFINE_PROGRAM_SYSTEM_FRONT_END_H
 
@@ -11,7 +11,7 @@ namespace equiaffine {
 /// The front ends, which spell options differently.
 enum class Front_end { COMMAND_LINE, PYTHON };
 
-/// The front end of this process. The module for Python sets it before all else.
+/// The front end of this process. The Python module sets it first.
 inline Front_end front_end = Front_end::COMMAND_LINE;
 
 /// The text for the front end of this process.

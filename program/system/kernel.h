@@ -6,7 +6,7 @@
 
 namespace equiaffine {
 
-/// The one kernel of the program.
+/// The kernel of the program.
 using Kernel = CGAL::Simple_cartesian<double>;
 
 } // namespace equiaffine

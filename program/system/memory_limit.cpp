@@ -37,29 +37,29 @@ std::string gigabytes(double bytes) {
   return text.data();
 }
 
-/// Throws if more memory is needed than may be used. `reason` is what needs it, and `purpose` what it is for.
+/// Throws if more memory is needed than allowed: "`reason` need about X GB of memory for `purpose`, ...".
 void check_memory(double needed, Memory_use use, const std::string& reason, const std::string& purpose,
                   const std::string& advice) {
   if (is_resident_memory_limited()) {
     const double room = room_for_scratch_memory();
     if (needed <= room) return;
     throw Input_error(reason + " need about " + gigabytes(needed) + " for " + purpose +
-                      ", and the folder of the output has room for " + gigabytes(room) + "; " + advice +
-                      ", or make room there");
+                      ", and the folder of the output has " + gigabytes(room) + " of free space; " + advice +
+                      ", or free space there");
   }
   const double all = physical_memory();
   if (needed <= (use == Memory_use::ALL ? all : all / 2)) return;
   const std::string need = reason + " need about " + gigabytes(needed) + " of memory for " + purpose + ", and ";
   if (needed > all) throw Input_error(need + "this computer has " + gigabytes(all) + "; " + advice);
-  throw Input_error(need + "that is over half of the " + gigabytes(all) + " of this computer; " + advice +
-                    by_front_end(", or give --yes to use them all the same", ""));
+  throw Input_error(need + "this is more than half of the " + gigabytes(all) + " of this computer; " + advice +
+                    by_front_end(", or add --yes to use more than half", ""));
 }
 
 void check_memory(double needed, Memory_use use, const std::array<std::size_t, 3>& n, const std::string& purpose) {
   check_memory(needed, use,
                option_text("resolution") + ": " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
                    std::to_string(n[2]) + " nodes",
-               purpose, "use a smaller one");
+               purpose, "use a smaller resolution");
 }
 
 } // namespace
@@ -77,7 +77,7 @@ void check_memory_of_volume(const std::array<std::size_t, 3>& resolution, Memory
 }
 
 void check_memory_of_surface(const std::array<std::size_t, 3>& resolution, Memory_use use) {
-  // The sphere in a cube of n^3 nodes has 3 pi / 2 n^2 vertices: each axis sees two discs of diameter n. A vertex has
+  // The sphere in a cube of n^3 nodes has 3 pi / 2 n^2 vertices: two discs of diameter n along each axis. A vertex has
   // coordinates (24 bytes), its grid edge (40), two triangles (24) and the basic attributes (129).
   constexpr double vertices_per_node = 3.14159265 / 2, bytes_per_vertex = 217, bytes_per_node = 42;
   const auto [nx, ny, nz] = resolution;
@@ -89,7 +89,7 @@ void check_memory_of_surface(const std::array<std::size_t, 3>& resolution, Memor
 void check_memory_of_delaunay_surface(double diagonal, double radius, double distance, Memory_use use) {
   // A ball of radius r about a point of the sphere of diameter d rises r^2 / d above the plane of its triangle. A
   // square of side r has 2/3 vertices, each with 7 tetrahedra of the triangulation, 2 triangles and its attributes.
-  // The surface may be much smaller than the sphere: what is refused cannot have been meant.
+  // The surface may be much smaller than the sphere, so only a small part of it is required to fit.
   constexpr double vertices_per_square = 2.0 / 3, bytes_per_vertex = 1500, part_of_sphere = 1e-4;
   const double diameter = diagonal / std::sqrt(3.0), area = std::numbers::pi * diameter * diameter;
   const double squared_radius = std::min(radius * radius, distance * diameter);
@@ -97,19 +97,19 @@ void check_memory_of_delaunay_surface(double diagonal, double radius, double dis
   reason << option_text("radius") << " and " << option_text("distance") << ": triangles within " << radius << " and "
          << distance;
   check_memory(part_of_sphere * bytes_per_vertex * vertices_per_square * area / squared_radius, use, reason.str(),
-               "a ten-thousandth of the sphere in the box", "use larger ones");
+               "1/10000 of the sphere in the box", "use larger values");
 }
 
 namespace {
 
 constexpr std::size_t large_array = std::size_t(1) << 22, mebibyte = std::size_t(1) << 20;
 
-std::atomic<std::size_t> limit = 0; ///< 0 if there is none
+std::atomic<std::size_t> limit = 0; ///< 0 for no limit
 std::atomic<pid_t> child_that_counts = 0;
 
-int statm = -1; ///< /proc/self/statm, open since the limit was set
+int statm = -1; ///< descriptor of /proc/self/statm, open since the limit was set
 
-/// The bytes that are resident, as its second number says in pages; 0 if it cannot be read.
+/// The resident bytes, from the second number of statm (in pages); 0 if it cannot be read.
 std::size_t resident_memory_of_process() {
   std::array<char, 128> text{};
   if (::pread(statm, text.data(), text.size() - 1, 0) <= 0) return 0;
@@ -118,7 +118,7 @@ std::size_t resident_memory_of_process() {
   return std::size_t(std::strtoull(end, nullptr, 10)) * std::size_t(::sysconf(_SC_PAGE_SIZE));
 }
 
-/// The sum of some lines of a file about a process, which are in kilobytes, in bytes; 0 if there is no such file.
+/// The sum in bytes of some lines, in kilobytes, of a file in /proc about a process; 0 if there is no such file.
 std::size_t memory_in(const char* name_of_file, const std::string& process,
                       std::initializer_list<std::string_view> names) {
   std::ifstream file("/proc/" + process + "/" + name_of_file);
@@ -129,13 +129,13 @@ std::size_t memory_in(const char* name_of_file, const std::string& process,
   return 1024 * kilobytes;
 }
 
-/// The resident memory of this process and of the child that counts.
+/// The resident memory of this process and of the counted child.
 std::size_t resident_memory() {
   const pid_t child = child_that_counts;
   return resident_memory_of_process() + (child == 0 ? 0 : memory_in("status", std::to_string(child), {"VmRSS:"}));
 }
 
-/// The part of it that has no file to come back from, where what both share counts once.
+/// The part of it that is not backed by files; memory shared by both counts once.
 std::size_t irreclaimable_memory() {
   const auto of = [](const std::string& process) {
     const std::size_t proportional = memory_in("smaps_rollup", process, {"Pss_Anon:", "Pss_Shmem:"});
@@ -145,9 +145,9 @@ std::size_t irreclaimable_memory() {
   return of("self") + (child == 0 ? 0 : of(std::to_string(child)));
 }
 
-/// Looks at this process from now on, which may be a child, and has it do without large pages: see
-/// forgo_large_pages() in file_memory.cpp.
-void begin_to_look() {
+/// Starts watching this process, which may be a child, and disables huge pages; see disable_huge_pages() in
+/// file_memory.cpp.
+void begin_watching() {
   if (statm != -1) ::close(statm);
   statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
 #ifdef __linux__
@@ -157,12 +157,12 @@ void begin_to_look() {
 
 std::string in_mebibytes(std::size_t bytes) { return std::to_string((bytes + mebibyte - 1) / mebibyte) + "M"; }
 
-/// Ends the process as an error of the user does.
+/// Ends the process like an error of the user.
 [[noreturn]] void end_for_lack_of_memory(std::size_t used) {
   const std::string end_of_progress = ::isatty(STDERR_FILENO) ? "\n" : "";
-  const std::string report = end_of_progress + "equiaffine: error: " + option_text("memory") + ": more than " +
+  const std::string report = end_of_progress + "equiaffine: error: " + option_text("memory") + ": " +
                              in_mebibytes(limit) +
-                             " are needed at once, since not everything can be kept in a file; give more, such as " +
+                             " are too few for the data that cannot be kept in a file; give more, such as " +
                              in_mebibytes(2 * used) + ", or leave it out\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, report.data(), report.size());
   remove_all_temporary_folders();
@@ -170,17 +170,17 @@ std::string in_mebibytes(std::size_t bytes) { return std::to_string((bytes + meb
   ::_exit(error_of_user);
 }
 
-/// Keeps the resident memory below `bytes` by giving pages back, or ends the process if that cannot be and it
-/// `may_end`. It looks the more often the nearer the limit is.
+/// Keeps the resident memory below `bytes` by releasing pages; ends the process if that is impossible and it `may_end`.
+/// Checks more often near the limit.
 void watch(std::size_t bytes, bool may_end) {
-  constexpr std::size_t while_giving_back = 256 * mebibyte; // so much may be read again until all pages are given back
-  const std::size_t high = bytes - std::min(bytes / 2, std::max(bytes / 20 * 3, while_giving_back));
+  constexpr std::size_t while_releasing = 256 * mebibyte; // may be read again while pages are released
+  const std::size_t high = bytes - std::min(bytes / 2, std::max(bytes / 20 * 3, while_releasing));
   const std::size_t too_high = bytes / 20 * 21;
   constexpr std::size_t bytes_per_microsecond = 400000; // a read of one byte of a mapped file may bring 2 MB
   while (true) {
     std::size_t used = resident_memory();
     if (used > high) {
-      give_back_reclaimable_memory();
+      release_reclaimable_memory();
       used = resident_memory();
       if (may_end && used > too_high)
         if (const std::size_t rest = irreclaimable_memory(); rest > too_high) end_for_lack_of_memory(rest);
@@ -193,16 +193,14 @@ void watch(std::size_t bytes, bool may_end) {
 } // namespace
 
 void limit_resident_memory(std::size_t bytes, const std::filesystem::path& folder) {
-  begin_to_look();
+  begin_watching();
   const std::size_t used = resident_memory();
   if (used == 0)
-    throw Input_error(option_text("memory") +
-                      ": this system does not tell how much memory a process has; leave it out");
+    throw Input_error(option_text("memory") + ": this system does not report the memory of a process; leave it out");
   const std::size_t least = (used / mebibyte + 128) / 10 * 10 * mebibyte;
   if (bytes < least)
-    throw Input_error(option_text("memory") + ": " + in_mebibytes(bytes) +
-                      " are too few, since the program itself takes " + in_mebibytes(used) + "; give at least " +
-                      in_mebibytes(least));
+    throw Input_error(option_text("memory") + ": " + in_mebibytes(bytes) + " are too few: the program itself needs " +
+                      in_mebibytes(used) + "; give at least " + in_mebibytes(least));
   open_scratch_memory(folder, bytes / 8);
   limit = bytes;
   std::thread([bytes] { watch(bytes, true); }).detach();
@@ -214,7 +212,7 @@ void limit_resident_memory_of_child() {
   if (limit == 0) return;
   forget_reclaimable_memory();
   reopen_scratch_memory();
-  begin_to_look();
+  begin_watching();
   child_that_counts = 0;
   const std::size_t of_parent = memory_in("status", std::to_string(::getppid()), {"VmRSS:"});
   const std::size_t shared = memory_in("status", "self", {"RssAnon:"});

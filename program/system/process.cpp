@@ -48,17 +48,17 @@ namespace {
 constexpr std::array requests_to_end = {SIGHUP,  SIGINT,  SIGTERM,   SIGQUIT, SIGALRM,
                                         SIGUSR1, SIGUSR2, SIGVTALRM, SIGPROF, SIGXCPU};
 constexpr std::array crashes = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGSYS, SIGTRAP};
-constexpr int wake = SIGUSR1; ///< what a crash sends to the thread that removes the temporary folders
+constexpr int wake = SIGUSR1; ///< sent by a crash to the thread that removes the temporary folders
 constexpr std::array errors_of_writing = {SIGPIPE, SIGXFSZ};
 
-/// The signal of the first crash, or zero, and whether the temporary folders have been removed after it.
+/// The signal of the first crash, or zero, and whether the temporary folders have been removed since.
 std::atomic<int> crash = 0;
 std::atomic<bool> is_clean = false;
 
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-/// Waits for a request to end, removes the temporary folders and ends the process. After a crash, which wakes it by a
-/// request, the thread that crashed ends the process.
+/// Waits for a request to end, removes the temporary folders and ends the process. A crash also wakes this thread, but
+/// the thread that crashed ends the process.
 void end_at(const sigset_t& signals) {
   int signal = 0;
   ::sigwait(&signals, &signal);
@@ -67,15 +67,15 @@ void end_at(const sigset_t& signals) {
     is_clean = true;
     while (true) ::pause();
   }
-  if (::isatty(STDERR_FILENO)) std::cerr << std::endl; // the line that shows the progress ends here
+  if (::isatty(STDERR_FILENO)) std::cerr << std::endl; // ends the line of the progress
   ::_exit(128 + signal);
 }
 
-/// Handles a crash by what is allowed in a handler: another thread removes the temporary folders, if it still can.
+/// Handles a crash, async-signal-safe: another thread removes the temporary folders, if it still can.
 extern "C" void report_crash(int signal) {
   constexpr std::string_view report =
-      "equiaffine: internal error: the program crashed, which is a defect of it; please "
-      "report it with the command line and the input\n";
+      "equiaffine: internal error: the program crashed; please report this defect with the command line and the "
+      "input\n";
   constexpr timespec moment = {0, 10'000'000};
   constexpr int most_moments = 300;
   if (int none = 0; !crash.compare_exchange_strong(none, signal))
@@ -87,7 +87,7 @@ extern "C" void report_crash(int signal) {
   std::raise(signal);
 }
 
-/// Gives the thread a second stack, for a crash whose reason is that the other one is full.
+/// Gives the thread a second stack, for crashes by stack overflow.
 void use_second_stack() {
   constexpr std::size_t size = 1 << 16;
   thread_local std::array<std::byte, size> stack;
@@ -98,7 +98,7 @@ void use_second_stack() {
 }
 
 #ifdef CGAL_LINKED_WITH_TBB
-/// Gives every thread of TBB a second stack as soon as it works for this one.
+/// Gives every worker thread of TBB a second stack.
 class Second_stacks : public tbb::task_scheduler_observer {
 public:
   Second_stacks() { observe(true); }
@@ -109,7 +109,7 @@ public:
 void handle_crashes() {
   use_second_stack();
 #ifdef CGAL_LINKED_WITH_TBB
-  // It is never destroyed, since the threads may outlive the objects of main().
+  // Never destroyed, since the threads may outlive the objects of main().
   [[maybe_unused]] static const auto* const second_stacks = new Second_stacks;
 #endif
   struct sigaction action = {};
@@ -129,7 +129,7 @@ void clean_up_at_signals() {
     const bool is_ignored = ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
     if (!is_ignored || signal == wake) ::sigaddset(&signals, signal);
   }
-  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr); // in all threads to come, so that one of them can wait for these
+  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr); // also in later threads, so that one of them can wait for these
   std::thread(end_at, signals).detach();
   handle_crashes();
 }
@@ -144,7 +144,7 @@ void forget_signals() {
 
 namespace {
 
-/// Opens a file that has no name, in memory where the system has such files.
+/// Opens an unnamed file, in memory if the system supports it.
 int open_nameless_file() {
 #ifdef __linux__
   return ::memfd_create("equiaffine", MFD_CLOEXEC);
@@ -171,8 +171,8 @@ Shared_memory::~Shared_memory() {
 std::byte* Shared_memory::allocate(std::size_t size) {
   if (::ftruncate(descriptor_, off_t(size)) != 0) {
     if (errno == EFBIG)
-      throw Input_error("the limit of the size of files is below " + std::to_string(size) +
-                        " bytes, which have to pass from one process to another; raise it with ulimit -f");
+      throw Input_error("the limit of file sizes is less than the " + std::to_string(size) +
+                        " bytes to pass between processes; raise it with ulimit -f");
     throw std::bad_alloc();
   }
   map(size);
@@ -198,7 +198,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The first letter of what a child tells its parent; an Input_error is followed by its two texts.
+/// The first letter of a child's answer; that of an Input_error is followed by its two texts.
 constexpr char done = 'd', input_error = 'i', no_memory = 'm', other_exception = 'e';
 
 bool is_child = false;
@@ -211,14 +211,14 @@ void set_limit(int resource, double amount) {
   ::setrlimit(decltype(RLIMIT_AS)(resource), &bounds);
 }
 
-/// The size of this process's address space in bytes, or zero where the system does not tell.
+/// The size of this process's address space in bytes, or zero if unknown.
 double address_space() {
   double pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * double(::sysconf(_SC_PAGE_SIZE));
 }
 
-/// Allows this process so many bytes beside what it has, but not more than this computer has.
+/// Limits this process to `bytes` more than it has, at most the memory of this computer.
 void limit_memory(double bytes) {
   if (const double used = address_space(); used > 0) set_limit(RLIMIT_AS, used + std::min(bytes, physical_memory()));
 }
@@ -226,7 +226,7 @@ void limit_memory(double bytes) {
 void write_all(int descriptor, const std::string& text) {
   for (std::size_t written = 0; written < text.size();) {
     const ssize_t count = ::write(descriptor, text.data() + written, text.size() - written);
-    if (count <= 0) return; // the parent is gone
+    if (count <= 0) return; // the parent has ended
     written += std::size_t(count);
   }
 }
@@ -248,12 +248,12 @@ std::string answer_of_task(const std::function<void()>& task) {
 
 std::string answer_of(const std::function<void()>& task) {
   const std::string answer = answer_of_task(task);
-  const std::string lack = lack_of_room_for_scratch_memory(); // other libraries make their own errors of it
+  const std::string lack = lack_of_room_for_scratch_memory(); // libraries replace the exception by their own errors
   return answer.starts_with(done) || lack.empty() ? answer : input_error + lack + '\0';
 }
 
-/// The life of the child. It leaves by _exit, so that nothing of its parent's is flushed, removed or waited for.
-[[noreturn]] void live(const std::function<void()>& task, const Child_limits& limits, int answer) {
+/// Runs the child. It ends with _exit, so that nothing of its parent is flushed, removed or joined.
+[[noreturn]] void run_child(const std::function<void()>& task, const Child_limits& limits, int answer) {
 #ifdef __linux__
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
@@ -264,7 +264,7 @@ std::string answer_of(const std::function<void()>& task) {
     ::dup2(nothing, STDERR_FILENO);
   }
   is_child = true;
-  // The observer of the parent may wait for locks of threads that the child does not have: this one hides it.
+  // Hides the parent's observer, which may wait for locks of threads that do not exist in the child.
   const Progress_observer nobody([](const Progress_observer::Stage&) {}, std::chrono::hours(1 << 16));
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_CPU, std::ceil(limits.seconds));
@@ -277,7 +277,7 @@ std::string answer_of(const std::function<void()>& task) {
   ::_exit(0);
 }
 
-/// A child process, which is ended before this object is.
+/// A child process, which is killed when this object is destroyed.
 class Child {
 public:
   explicit Child(pid_t process) : process_(process) { count_memory_of_child(process); }
@@ -289,7 +289,7 @@ public:
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Waits for its end and returns how it ended.
+  /// Waits for its end and returns its status.
   int wait() {
     int status = 0;
     while (::waitpid(process_, &status, 0) == -1 && errno == EINTR) {
@@ -303,7 +303,7 @@ private:
   pid_t process_;
 };
 
-/// The end of a pipe that is read.
+/// The reading end of a pipe.
 class Pipe_end {
 public:
   explicit Pipe_end(int descriptor) : descriptor_(descriptor) {}
@@ -317,7 +317,7 @@ private:
   const int descriptor_;
 };
 
-/// Reads from the pipe until the child closes it; false if that is not before the deadline. An observer may look twenty
+/// Reads from the pipe until the child closes it; returns false at the deadline. Calls the progress observer twenty
 /// times a second.
 bool read_until_closed(int pipe, Clock::time_point deadline, std::string& text) {
   std::array<char, 4096> buffer;
@@ -336,7 +336,7 @@ bool read_until_closed(int pipe, Clock::time_point deadline, std::string& text) 
 
 [[noreturn]] void throw_too_slow(const Child_limits& limits) {
   throw Child_failure("took longer than " + std::to_string(std::llround(limits.seconds)) + " s",
-                      "the file may be damaged, or be read too slowly: try a copy on a faster disk");
+                      "the file may be damaged, or the disk too slow: try a copy on a faster disk");
 }
 
 [[noreturn]] void throw_answer(const std::string& answer, int status, const Child_limits& limits) {
@@ -350,7 +350,7 @@ bool read_until_closed(int pipe, Clock::time_point deadline, std::string& text) 
     const std::size_t end = text.find('\0');
     throw Input_error(text.substr(0, end), text.substr(end + 1));
   }
-  throw Child_failure("gave up" + (text.empty() ? "" : " (" + text + ")"));
+  throw Child_failure("failed" + (text.empty() ? "" : " (" + text + ")"));
 }
 
 } // namespace
@@ -371,11 +371,12 @@ void run_in_child(const std::function<void()>& task, const Child_limits& limits)
     const std::string reason = std::generic_category().message(errno);
     if (has_pipe)
       for (const int end : pipe) ::close(end);
-    throw Input_error("cannot make a process to read in (" + reason + "); end other programs or raise the limit");
+    throw Input_error("cannot start a process to read the file (" + reason +
+                      "); close other programs or raise the limit of processes");
   }
   if (child == 0) {
     ::close(pipe[0]);
-    live(task, limits, pipe[1]);
+    run_child(task, limits, pipe[1]);
   }
   ::close(pipe[1]);
   Child process(child);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The signals of this process, its child processes, and memory shared with them.
+// Signals, child processes, and memory shared with them.
 #ifndef EQUIAFFINE_PROGRAM_SYSTEM_PROCESS_H
 #define EQUIAFFINE_PROGRAM_SYSTEM_PROCESS_H
 
@@ -10,18 +10,17 @@
 
 namespace equiaffine {
 
-/// From now on, every signal that ends the process and can be caught also removes the temporary folders, unless it was
-/// ignored before. A signal that asks it to end (SIGINT, SIGTERM, SIGQUIT and the like) gives the exit status 128 + its
-/// number. A crash (SIGSEGV, SIGABRT and the like) prints one line that asks for a report and ends as crashes do.
-/// A reader of the output that goes away and a limit of file sizes become errors of writing. Call it before there are
-/// threads.
+/// Installs handlers for all signals that end the process and were not ignored: they also remove the temporary folders.
+/// A request to end (SIGINT, SIGTERM, SIGQUIT and others) exits with the status 128 + its number. A crash (SIGSEGV,
+/// SIGABRT and others) prints a line that asks for a report, and ends with its signal. SIGPIPE and SIGXFSZ become
+/// errors of writing. Call this before starting threads.
 void clean_up_at_signals();
 
-/// Gives every signal its default effect again, for a child process.
+/// Restores the default effect of every signal, for a child process.
 void forget_signals();
 
-/// Bytes that a process shares with the children that it makes afterwards: what a child writes, its parent reads.
-/// Memory is taken only for what is written. Every member throws `std::bad_alloc` if the system has none left.
+/// Memory that a process shares with children that it starts afterwards: a child writes, its parent reads. Only written
+/// pages use memory. Every member throws `std::bad_alloc` if the system has no memory left.
 class Shared_memory {
 public:
   Shared_memory();
@@ -29,11 +28,10 @@ public:
   Shared_memory(const Shared_memory&) = delete;
   Shared_memory& operator=(const Shared_memory&) = delete;
 
-  /// Makes room for this many bytes, which are zero at first, and returns the first of them. Throws `Input_error` where
-  /// the limit of the size of files forbids that, since the system takes these bytes for a file.
+  /// Allocates zeroed bytes. Throws `Input_error` if they exceed the limit of file sizes, to which they are subject.
   std::byte* allocate(std::size_t size);
 
-  /// The bytes that this process or a child of it made room for; null if there are none.
+  /// The bytes that this process or a child allocated; null if there are none.
   const std::byte* data();
 
 private:
@@ -44,18 +42,18 @@ private:
   std::size_t size_ = 0;
 };
 
-/// What a child process may use before it is ended.
+/// Limits of a child process.
 struct Child_limits {
-  double seconds; ///< of processor time; the child may sleep as long again
-  double memory;  ///< bytes beside what its parent has, at most those that this computer has; as many in scratch memory
+  double seconds; ///< of processor time; twice as many of elapsed time
+  double memory;  ///< bytes in addition to the parent's, up to the memory of this computer; as many of scratch memory
 };
 
-/// A child process that read a file ended without an answer. what() continues a sentence: "crashed (Segmentation
-/// fault)".
+/// Thrown if a child process that reads a file ends without an answer. what() is a predicate, such as "crashed
+/// (Segmentation fault)".
 class Child_failure : public std::runtime_error {
 public:
   explicit Child_failure(const std::string& what,
-                         const std::string& advice = "the file is probably damaged, get the complete file again")
+                         const std::string& advice = "the file may be damaged: get the complete file again")
       : std::runtime_error(what), advice_(advice) {}
 
   const std::string& advice() const { return advice_; }
@@ -64,14 +62,14 @@ private:
   std::string advice_;
 };
 
-/// Runs `task` in a child process and waits for its end. The child has a copy of everything that its parent has, and
-/// nothing of what it changes comes back but `Shared_memory`. What it prints is lost. Where the task throws
-/// `Input_error` or `std::bad_alloc`, so does this function; a full disk with its scratch memory is an `Input_error`.
+/// Runs `task` in a child process and waits for its end. The child has a copy of its parent's memory; only changes of
+/// `Shared_memory` come back. Its output is discarded. Rethrows `Input_error` and `std::bad_alloc` of the task; lack of
+/// room for scratch memory is an `Input_error`.
 /// \throws Child_failure if the child crashed, exceeded its limits, or threw another exception
 void run_in_child(const std::function<void()>& task, const Child_limits& limits);
 
-/// In a child process, allows this many bytes from now on beside what it has, or what it was allowed if that is more;
-/// elsewhere nothing is limited. It is never more than this computer has.
+/// In a child process, allows `bytes` more memory than it has, up to the memory of this computer; a larger limit set
+/// before stays. Has no effect in other processes.
 void allow_memory(double bytes);
 
 } // namespace equiaffine

@@ -9,7 +9,7 @@ namespace equiaffine {
 
 namespace {
 
-constexpr const char* wipe_line = "\r\x1b[K"; // goes to the beginning of the line and erases it
+constexpr const char* wipe_line = "\r\x1b[K"; // carriage return, and erase the line
 
 double seconds(Progress_report::Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
@@ -48,7 +48,7 @@ void Progress_report::show(std::size_t done, Time now) {
   }
 }
 
-/// Whether a second and a hundredth of the stage tell that it will take a minute or more.
+/// Whether the stage is predicted to take a minute or more, after a second and 1 % of it.
 bool Progress_report::is_known_to_be_long(double fraction, Time now) const {
   const double passed = seconds(now - begin_of_stage_);
   return passed >= 1 && fraction >= 0.01 && passed >= 60 * fraction;
@@ -59,7 +59,7 @@ void Progress_report::wipe() {
   is_shown_ = false;
 }
 
-/// Without a number of steps a mark goes to and fro.
+/// A bar; a moving mark if the number of steps is unknown.
 std::string Progress_report::bar(double fraction, Time now) const {
   constexpr std::size_t width = 24;
   std::string text(width, '.');
@@ -76,7 +76,7 @@ std::string Progress_report::percentage(double fraction) const {
   return steps_ > 0 ? std::to_string(int(100 * fraction)) + " %" : "";
 }
 
-/// The time since the start, and what is left of the stage at its pace so far.
+/// The time since the start, and the remaining time of the stage at its rate so far.
 std::string Progress_report::times(double fraction, Time now) const {
   const std::string text = ", " + time_text(seconds(now - start_));
   if (!(fraction > 0)) return text;

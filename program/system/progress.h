@@ -14,9 +14,9 @@
 
 namespace equiaffine {
 
-/// What is said of a long computation, and when: on a terminal a line that is written again and again and wiped away at
-/// the end, elsewhere a line every ten seconds, and one as soon as it is known that a stage will take minutes. Whoever
-/// calls it says what time it is.
+/// Writes the progress of a long computation: on a terminal a line that is updated, and erased at the end; otherwise a
+/// line every ten seconds, and one as soon as a stage is predicted to take a minute or more. The caller passes the
+/// time.
 class Progress_report {
 public:
   using Clock = std::chrono::steady_clock;
@@ -28,13 +28,13 @@ public:
       : stream_(stream), is_terminal_(is_terminal), start_(start), begin_of_stage_(start),
         time_of_line_(start + time_between_lines) {}
 
-  /// Begins the next stage, of `steps` steps; 0 if their number is not known.
+  /// Begins the next stage, of `steps` steps; 0 if unknown.
   void begin(const std::string& stage, std::size_t steps, Time now);
 
-  /// Writes what is to be said at that time, when so many steps of the stage are done.
+  /// Writes the progress at this time, if due, when `done` steps of the stage are done.
   void show(std::size_t done, Time now);
 
-  /// Wipes the line of a terminal away.
+  /// Erases the line on a terminal.
   void wipe();
 
   /// Returns the time in two units at most, such as "3 min 20 s".
@@ -51,12 +51,12 @@ private:
   const Time start_;
   std::string stage_ = "starting";
   std::size_t steps_ = 0;
-  Time begin_of_stage_, time_of_line_; ///< the latter is that of the next line where there is no terminal
+  Time begin_of_stage_, time_of_line_; ///< the latter is that of the next line without a terminal
   bool is_shown_ = false, is_announced_ = false;
 };
 
-/// Says what a long computation is doing. On a terminal a line appears after a second and is wiped away at the end;
-/// where there is no terminal a line is written every ten seconds. Warnings follow it.
+/// Shows the progress of a computation from a thread of its own, if it takes longer than `patience`; see
+/// Progress_report. Warnings follow it.
 class Progress {
 public:
   using Clock = Progress_report::Clock;
@@ -66,19 +66,19 @@ public:
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Begins the next stage, of `steps` steps; 0 if their number is not known.
+  /// Begins the next stage, of `steps` steps; 0 if unknown.
   void begin(const std::string& stage, std::size_t steps = 0);
 
-  /// Counts steps of the stage. Any thread may call it.
+  /// Counts steps of the stage. Thread-safe.
   void advance(std::size_t steps = 1) { done_.fetch_add(steps, std::memory_order_relaxed); }
 
-  /// Writes a line about what comes next, whether there is a terminal or not.
+  /// Writes a line, with or without a terminal.
   void announce(const std::string& text);
 
-  /// Wipes the line away; nothing is shown any more.
+  /// Erases the line, and shows nothing more.
   void end();
 
-  /// Ends and writes a line about what the user did not expect, whether there is a terminal or not.
+  /// Ends, and writes a warning, with or without a terminal.
   void warn(const std::string& text);
 
 private:
@@ -93,7 +93,7 @@ private:
   std::thread thread_;
 };
 
-/// Measures the seconds since it was made.
+/// Measures the seconds since its construction.
 class Stopwatch {
 public:
   double seconds() const { return std::chrono::duration<double>(Progress::Clock::now() - start_).count(); }

@@ -9,8 +9,8 @@
 
 namespace equiaffine {
 
-/// Writes a VTK data set with one of VTK's XML writers. The file is made in memory: VTK does not survive a disk that
-/// fills up. Arrays are written inline, as base64: appended ones are lost on readers with a recent expat.
+/// Writes a VTK data set with one of VTK's XML writers, first into memory, since VTK crashes when the disk fills up.
+/// Arrays are inline base64: readers with a recent expat lose appended arrays.
 template <class Writer, class Data>
 void write_vtk_xml(std::ostream& stream, Data& data) {
   vtkNew<Writer> writer;

@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::int32_t size_of_nifti_header = 348;
 
-/// The least place of the data in a file that has the header, too, and the greatest, beyond which a float is not exact.
+/// The minimum offset of the data in a file with the header, and the maximum, beyond which a float is not exact.
 constexpr double first_place_of_data = 352, last_place_of_data = 1 << 24;
 
-/// The places of fields in the header, in bytes.
+/// The offsets of fields in the header, in bytes.
 enum Place : std::size_t {
   DIM = 40,
   DATATYPE = 70,
@@ -44,7 +44,7 @@ struct Nifti_header::Datatype {
   std::int16_t code;
   std::size_t type; ///< a position in raw_types
   std::size_t side_by_side;
-  bool is_color = false; ///< which is never scaled
+  bool is_color = false; ///< colors are never scaled
 
   std::size_t bits() const { return 8 * size_of_sample(type) * side_by_side; }
 };
@@ -53,7 +53,7 @@ Nifti_header::Nifti_header(const std::string& path) : path_(path), bytes_(beginn
   if (bytes_.size() < size_of_nifti_header) fail_to_read_volume_data(path);
   is_swapped_ = number<std::int32_t>(0) != size_of_nifti_header;
   if (number<std::int32_t>(0) != size_of_nifti_header)
-    fail_at("sizeof_hdr", number<std::int32_t>(0), "convert it to NIfTI-1, where that is 348");
+    fail_at("sizeof_hdr", number<std::int32_t>(0), "convert it to NIfTI-1, with 348 there");
 }
 
 template <class Number>
@@ -75,8 +75,8 @@ std::size_t Nifti_header::size(std::size_t axis) const {
   return std::size_t(size);
 }
 
-/// The types of NIfTI-1 but single bits and numbers of 128 bits. Another number of bits shows that one of the two is
-/// damaged.
+/// The types of NIfTI-1 except single bits and numbers of 128 bits. A number of bits that does not match the type shows
+/// that one of the two fields is damaged.
 Nifti_header::Datatype Nifti_header::datatype() const {
   constexpr std::size_t byte = integer_sample_type(1, false), single = floating_sample_type(4),
                         twice = floating_sample_type(8);
@@ -100,7 +100,7 @@ Nifti_header::Datatype Nifti_header::datatype() const {
   if (found == datatypes.end()) fail_to_read_volume_type(path_);
   if (bits < 0 || std::size_t(bits) != found->bits())
     fail_at("bitpix", bits,
-            "correct it to " + std::to_string(found->bits()) + ", which is that of its datatype " +
+            "correct it to " + std::to_string(found->bits()) + ", the number of bits of its datatype " +
                 std::to_string(code) + ", or correct the datatype");
   return *found;
 }
@@ -136,15 +136,15 @@ std::array<std::array<double, 4>, 3> Nifti_header::sform() const {
     for (std::size_t column = 0; column < 4; ++column) {
       matrix[row][column] = number<float>(SROW, 4 * row + column);
       if (!std::isfinite(matrix[row][column]))
-        fail_at("a number in srow of", matrix[row][column], "correct it to a finite number");
+        fail_at("the number in srow", matrix[row][column], "correct it to a finite number");
     }
-  constexpr double largest_ratio = 1e6; // of steps, which single precision can still tell
+  constexpr double largest_ratio = 1e6; // of steps, still resolved in single precision
   std::array<double, 3> steps;
   for (std::size_t column = 0; column < 3; ++column)
     steps[column] = std::hypot(matrix[0][column], matrix[1][column], matrix[2][column]);
   const auto [shortest, longest] = std::minmax_element(steps.begin(), steps.end());
   if (!(*longest <= largest_ratio * *shortest))
-    fail_at("a step in srow of", *longest, "correct it, the shortest one is less than a millionth of it");
+    fail_at("the step in srow", *longest, "correct it: the shortest step is less than a millionth of it");
   return matrix;
 }
 
@@ -152,9 +152,9 @@ std::array<std::array<double, 4>, 3> Nifti_header::qform() const {
   std::array<double, 6> q;
   for (std::size_t i = 0; i < q.size(); ++i)
     if (q[i] = number<float>(QUATERNION, i); !std::isfinite(q[i]))
-      fail_at("a number in quatern or qoffset of", q[i], "correct it to a finite number");
+      fail_at("the number in quatern or qoffset", q[i], "correct it to a finite number");
   auto [b, c, d, x, y, z] = q;
-  constexpr double half_a_turn = 1e-7; // where rounding may leave nothing for the first number
+  constexpr double half_a_turn = 1e-7; // near half a turn, the first number vanishes up to rounding
   double a = 1 - (b * b + c * c + d * d);
   if (a < half_a_turn) {
     const double length = std::hypot(b, c, d);
@@ -171,7 +171,7 @@ std::array<std::array<double, 4>, 3> Nifti_header::qform() const {
 Lattice_3<Kernel> Nifti_header::lattice() const {
   for (std::size_t axis = 1; axis <= 3; ++axis)
     if (const double step = number<float>(PIXDIM, axis); !(step > 0 && std::isfinite(step)))
-      fail_at("pixdim[" + std::to_string(axis) + "]", step, "correct it to the distance of two nodes");
+      fail_at("pixdim[" + std::to_string(axis) + "]", step, "correct it to the distance between nodes");
   const auto code_of_qform = number<std::int16_t>(QFORM), code_of_sform = number<std::int16_t>(SFORM);
   const bool prefers_sform = code_of_sform > 0 && (code_of_qform <= 0 || code_of_sform == code_of_scanner);
   constexpr int mask_of_length = 7, meters = 1, micrometers = 3;
@@ -181,8 +181,8 @@ Lattice_3<Kernel> Nifti_header::lattice() const {
   for (std::size_t axis = 0; axis < 3; ++axis) matrix[axis][axis] = number<float>(PIXDIM, axis + 1);
   if (code_of_qform > 0) matrix = qform();
   if (code_of_sform > 0)
-    if (const auto other = sform(); prefers_sform) matrix = other; // both are checked
-  const double sign = prefers_sform || code_of_qform > 0 ? -1 : 1; // NIfTI's x and y point the other way
+    if (const auto other = sform(); prefers_sform) matrix = other; // check both
+  const double sign = prefers_sform || code_of_qform > 0 ? -1 : 1; // NIfTI's x and y point in the opposite directions
   const auto column = [&](std::size_t c) {
     return unit * Kernel::Vector_3(sign * matrix[0][c], sign * matrix[1][c], matrix[2][c]);
   };

@@ -13,34 +13,34 @@
 namespace equiaffine {
 
 /// The header of a NIfTI-1 file, which begins with its own length in the byte order of the file. Its functions throw
-/// `Input_error`, which names the field, for what cannot be.
+/// `Input_error` with the name of the field for invalid contents.
 class Nifti_header {
 public:
   explicit Nifti_header(const std::string& path);
 
-  /// Whether the bytes of numbers are in another order than those of this computer.
+  /// Whether the byte order of the file is not that of this computer.
   bool is_swapped() const { return is_swapped_; }
 
-  /// The nodes along an axis, from 1 to 7; 1 along those that the file does not have.
+  /// The number of nodes along an axis from 1 to 7; 1 for missing axes.
   std::size_t size(std::size_t axis) const;
 
-  /// The position in raw_types of the type of the numbers.
+  /// The position in raw_types of the sample type.
   std::size_t sample_type() const;
 
-  /// The numbers that lie side by side at a node: 3 or 4 of a color, 2 of a complex number, else 1.
+  /// The number of interleaved numbers per node: 3 or 4 of a color, 2 of a complex number, otherwise 1.
   std::size_t numbers_side_by_side() const;
 
-  /// The place of the first number in the file, decompressed.
+  /// The offset of the first number in the decompressed file.
   std::size_t first_byte() const;
 
   /// The bytes from the beginning of the file to the end of the data.
   double size_of_file() const;
 
-  /// The slope and the intercept of the values as functions of the numbers, if these are not the values.
+  /// Slope and intercept, if the values are not the stored numbers.
   std::optional<std::array<double, 2>> scaling() const;
 
-  /// The place of the nodes in ITK's frame, in millimeters: that of the sform if there is no qform or the sform is the
-  /// scanner's, else that of the qform; without both, steps alone.
+  /// The lattice in ITK's frame, in millimeters: from the sform if there is no qform or the sform is that of the
+  /// scanner, otherwise from the qform; without both, from the spacings.
   Lattice_3<Kernel> lattice() const;
 
 private:

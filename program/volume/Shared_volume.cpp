@@ -13,19 +13,19 @@ namespace equiaffine {
 
 namespace {
 
-/// What stands before the samples.
+/// The data before the samples.
 struct Header {
   Lattice_3<Kernel>::Size size;
   std::array<double, 3> origin;
   std::array<std::array<double, 3>, 3> steps;
   std::size_t type;
-  std::size_t length_of_path; ///< of the file with the samples, which stands in their place; 0 if they are here
+  std::size_t length_of_path; ///< if not 0, the path of the file with the samples replaces them
   std::size_t first_in_file;
 };
 
 static_assert(std::is_trivially_copyable_v<Header>);
 
-/// The samples begin at a multiple of the size of every type.
+/// The header is padded to align samples of every type.
 constexpr std::size_t size_of_header = (sizeof(Header) + 63) / 64 * 64;
 
 Header header_in(const std::byte* bytes) {
@@ -81,8 +81,8 @@ Volume_view_3<Kernel> Shared_volume::view(const std::string& path) {
     const auto file =
         std::make_shared<const Mapped_file>(std::string(reinterpret_cast<const char*>(samples), header.length_of_path));
     if (file->size() < header.first_in_file + lattice.number_of_nodes() * size_of_sample(header.type))
-      fail_to_read_volume(path, file->data() ? "its data have become shorter" : "its data cannot be read",
-                          file->data() ? "read it again when it is complete" : "check the permissions of their file");
+      fail_to_read_volume(path, file->data() ? "its data file was truncated" : "its data file cannot be read",
+                          file->data() ? "read it again when it is complete" : "check the permissions of the file");
     samples = file->data() + header.first_in_file;
     owner = file;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The types of samples, and samples that a child process hands to its parent.
+// The types of samples, and volumes that a child process passes to its parent.
 #ifndef EQUIAFFINE_PROGRAM_VOLUME_SHARED_VOLUME_H
 #define EQUIAFFINE_PROGRAM_VOLUME_SHARED_VOLUME_H
 
@@ -37,7 +37,7 @@ inline std::size_t size_of_sample(std::size_t type) {
   return with_sample_type(type, [](auto number) { return sizeof number; });
 }
 
-/// Copies `count` samples of that type, from the one at `first` on every `stride`-th one.
+/// Copies `count` samples of the type: every `stride`-th one, starting at `first`.
 inline void copy_samples(std::size_t type, const void* from, std::size_t first, std::size_t stride, std::size_t count,
                          void* to) {
   with_sample_type(type, [&](auto number) {
@@ -46,50 +46,50 @@ inline void copy_samples(std::size_t type, const void* from, std::size_t first, 
   });
 }
 
-/// The position in raw_types of the integers of 1, 2, 4 or 8 bytes. Throws `std::invalid_argument` for others.
+/// The position in raw_types of the integers of 1, 2, 4 or 8 bytes. Throws `std::invalid_argument` for other sizes.
 constexpr std::size_t integer_sample_type(std::size_t bytes, bool is_signed) {
   switch (bytes) {
   case 1: return 0 + std::size_t(is_signed);
   case 2: return 2 + std::size_t(is_signed);
   case 4: return 4 + std::size_t(is_signed);
   case 8: return 6 + std::size_t(is_signed);
-  default: throw std::invalid_argument("integers have 1, 2, 4 or 8 bytes");
+  default: throw std::invalid_argument("integers must have 1, 2, 4 or 8 bytes");
   }
 }
 
-/// The position in raw_types of float, with 4 bytes, and double, with 8. Throws `std::invalid_argument` for others.
+/// The position in raw_types of float (4 bytes) or double (8 bytes). Throws `std::invalid_argument` for other sizes.
 constexpr std::size_t floating_sample_type(std::size_t bytes) {
   switch (bytes) {
   case 4: return 8;
   case 8: return 9;
-  default: throw std::invalid_argument("floating-point numbers have 4 or 8 bytes");
+  default: throw std::invalid_argument("floating-point numbers must have 4 or 8 bytes");
   }
 }
 
-/// Samples that a file has as they are in memory stay in the file, which then must not be cut short, or are read into
-/// memory.
+/// Whether samples whose layout in the file is that in memory stay in the file, which must not be truncated then, or
+/// are read into memory.
 enum class Samples_in { FILE, MEMORY };
 
-/// This is the place in a file where the samples of a volume lie one after the other, as they are in memory.
+/// The position in a file where the samples of a volume are contiguous, with the layout of memory.
 struct Raw_data {
   std::string path;
-  std::size_t first; ///< the place of the first byte
+  std::size_t first; ///< the offset of the first byte
 };
 
-/// A volume in the type of numbers of its file, in memory that a child process shares with its parent: the child
-/// allocates and fills it, and the parent takes the lattice and the samples from it.
+/// A volume with the sample type of its file, in shared memory: a child process allocates and fills it, and its parent
+/// reads the lattice and the samples.
 class Shared_volume {
 public:
-  /// Makes room for the samples of a lattice and returns the place of the first one. `type` is a position in raw_types.
+  /// Allocates the samples of a lattice, and returns the address of the first one. `type` is a position in raw_types.
   void* allocate(const Lattice_3<Kernel>& lattice, std::size_t type);
 
-  /// Says instead that the parent finds the samples at that place of a file.
+  /// Stores a reference to samples in a file instead.
   void refer_to(const Lattice_3<Kernel>& lattice, std::size_t type, const Raw_data& data);
 
   Lattice_3<Kernel> lattice();
 
-  /// The samples, where they are. A file must not be cut short as long as there is a copy of the view. Throws
-  /// `Input_error` about the volume `path` if the samples are in a file and no longer there.
+  /// A view of the samples. A file with samples must not be truncated during the lifetime of the view and its copies.
+  /// Throws `Input_error` about the volume `path` if the file no longer contains the samples.
   Volume_view_3<Kernel> view(const std::string& path);
 
 private:

@@ -35,7 +35,7 @@ double size_of_file(const fs::path& path) {
   return error ? 0 : double(bytes);
 }
 
-/// What a pattern such as slice%03d.raw says of the numbers in the names.
+/// A pattern of numbered names, such as slice%03d.raw.
 struct Name_pattern {
   std::string_view before, after;
   std::size_t width = 0;
@@ -48,7 +48,7 @@ struct Name_pattern {
   }
 };
 
-/// The pattern in a word that has one %; nothing unless it stands for an integer.
+/// The pattern in a word with one %; nothing unless it formats an integer.
 std::optional<Name_pattern> pattern_in(std::string_view word) {
   constexpr std::size_t greatest_width = 20;
   const std::size_t percent = word.find('%'), letter = word.find_first_not_of("0123456789", percent + 1);
@@ -61,7 +61,7 @@ std::optional<Name_pattern> pattern_in(std::string_view word) {
   return pattern.width <= greatest_width ? std::optional(pattern) : std::nullopt;
 }
 
-/// The names for the numbers from a first to a last one by a step. Without these, MetaIO numbers slices from 1.
+/// The names for numbers from a first to a last one by a step; without these, MetaIO numbers slices from 1.
 std::optional<std::vector<std::string>> names_by_pattern(std::string_view content, std::size_t slices) {
   constexpr long long most_names = 100'000;
   const std::vector<std::string_view> words = words_of(content);
@@ -80,7 +80,7 @@ std::optional<std::vector<std::string>> names_by_pattern(std::string_view conten
   return names;
 }
 
-/// The files that a header names. The header of NRRD ends with an empty line.
+/// The files named by a header. The header of NRRD ends with an empty line.
 Data_files data_files_of(const std::string& path, Volume_format format) {
   std::error_code error;
   if ((format != Volume_format::META && format != Volume_format::NRRD) || !fs::is_regular_file(path, error)) return {};
@@ -104,7 +104,7 @@ Data_files data_files_of(const std::string& path, Volume_format format) {
   return {};
 }
 
-/// Whether the way to a file, without regard to links, leads out of a folder.
+/// Whether the path of a file leads out of a folder, ignoring links.
 bool leads_out_of(const fs::path& folder, const std::string& name) {
   const fs::path absolute = fs::absolute(folder / "."),
                  way = (absolute / name).lexically_normal().lexically_relative(absolute.lexically_normal());
@@ -127,7 +127,7 @@ Data_files data_files_in(std::string_view content, std::string_view following_li
   } else if (is_list) {
     while (!following_lines.empty())
       if (const std::string_view name = take_line(following_lines); !name.empty()) files.names.emplace_back(name);
-    // "LIST 2D" says how many axes a file has, by default all but the last one.
+    // "LIST 2D" states the number of axes of each file, by default all but the last one.
     std::size_t axes = sizes.empty() ? 0 : sizes.size() - 1;
     if (const auto words = words_of(content); words.size() > 1) {
       const std::string_view digits = words[1].substr(0, words[1].find_first_not_of("0123456789"));
@@ -143,26 +143,26 @@ void check_data_files(const std::string& path, Volume_format format, bool allows
   const Data_files files = data_files_of(path, format);
   if (!files.are_understood)
     fail_at_field(path, "the pattern of names", files.content,
-                  "write one such as slice%03d.raw with the first and the last number and the step after it");
+                  "write a pattern such as slice%03d.raw, and after it the first and last number and the step");
   const fs::path folder = fs::path(path).parent_path();
   std::error_code error;
   for (const std::string& name : files.names) {
     if (!allows_outside && leads_out_of(folder, name))
-      fail_to_read_volume(path, "its header names the file '" + printable(name) + "' outside of its folder",
-                          "put it beside the header" + by_front_end(", or add --allow-outside if that is right", ""));
+      fail_to_read_volume(path, "its header names the file '" + printable(name) + "' outside its folder",
+                          "move it to the header's folder" +
+                              by_front_end(", or add --allow-outside if you trust the header", ""));
     if (!fs::exists(folder / name, error))
-      fail_to_read_volume(path, "the file with its data, '" + printable(name) + "', is missing",
-                          "put it beside the header");
+      fail_to_read_volume(path, "the data file '" + printable(name) + "' is missing",
+                          "move it to the header's folder, or correct the name");
     if (!fs::is_regular_file(folder / name, error))
-      fail_to_read_volume(path, "'" + printable(name) + "', which its header names, is no regular file",
-                          "correct the name");
+      fail_to_read_volume(path, "the data file '" + printable(name) + "' is not a regular file", "correct the name");
   }
   if (files.expected > 0 && files.names.size() != files.expected)
     fail_to_read_volume(path,
-                        "its header names " +
-                            (files.names.empty() ? "no file" : std::to_string(files.names.size()) + " files") +
-                            " with its data, and its sizes ask for " + std::to_string(files.expected),
-                        "correct one of them");
+                        "its header names " + std::to_string(files.names.size()) +
+                            (files.names.size() == 1 ? " data file" : " data files") + ", but its sizes require " +
+                            std::to_string(files.expected),
+                        "correct the names or the sizes");
 }
 
 double size_of_volume(const std::string& path, std::optional<Volume_format> format) {
@@ -196,7 +196,7 @@ std::optional<Raw_data> in_meta_image(const std::string& path) {
     const std::string_view line = take_line(rest);
     if (line.empty()) continue;
     const auto field = meta_field(line);
-    if (!field || field->content.empty()) return std::nullopt; // the content may stand on the next line
+    if (!field || field->content.empty()) return std::nullopt; // the content may be on the next line
     const auto is_true = [&] { return boost::istarts_with(field->content, "t") || field->content.starts_with('1'); };
     if (field->name == "BinaryData" && !is_true()) return std::nullopt;
     if (field->name == "CompressedData" && is_true()) return std::nullopt;
@@ -241,7 +241,7 @@ std::optional<Raw_data> in_NIfTI(const std::string& path, std::size_t type) {
   return is_as_in_memory ? std::optional(Raw_data{path, header.first_byte()}) : std::nullopt;
 }
 
-/// The beginnings of the elements of that name in a text, up to their '>'.
+/// The start tags of the elements of this name in a text.
 std::vector<std::string_view> xml_elements(std::string_view text, const std::string& name) {
   std::vector<std::string_view> elements;
   for (std::size_t at = 0; (at = text.find("<" + name, at)) != std::string_view::npos; ++at) {
@@ -253,7 +253,7 @@ std::vector<std::string_view> xml_elements(std::string_view text, const std::str
   return elements;
 }
 
-/// The one array at the points of a VTI file that is read.
+/// The array at the points of a VTI file that is read.
 std::optional<std::string_view> array_of_VTI(std::string_view header) {
   const std::size_t begin = header.find("<PointData"), end = header.find("</PointData>");
   if (begin == std::string_view::npos || end == std::string_view::npos || end < begin) return std::nullopt;
@@ -266,7 +266,7 @@ std::optional<std::string_view> array_of_VTI(std::string_view header) {
   return std::nullopt;
 }
 
-/// Reads the length in bytes that stands before the array that begins at that place, as VTK's `header_type` says.
+/// Reads the length in bytes at the beginning of an array, in VTK's `header_type`.
 std::optional<std::uint64_t> length_of_array(const std::string& path, std::size_t place, std::size_t size_of_length) {
   std::ifstream file(path, std::ios::binary);
   std::uint64_t length = 0;

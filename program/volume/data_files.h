@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a volume has its data: in files that its header names, and at a place in one of them.
+// The location of a volume's data: the files that its header names, and the offset in one of them.
 #ifndef EQUIAFFINE_PROGRAM_VOLUME_DATA_FILES_H
 #define EQUIAFFINE_PROGRAM_VOLUME_DATA_FILES_H
 
@@ -14,33 +14,32 @@
 
 namespace equiaffine {
 
-/// The files with the data that a MetaImage or NRRD header names.
+/// The data files named by a MetaImage or NRRD header.
 struct Data_files {
   std::string content;            ///< of the field that names them
   std::vector<std::string> names; ///< in their order; none if the data follow the header
-  std::size_t expected = 0;       ///< the number of them that the sizes of a MetaImage ask for
-  bool are_understood = true;     ///< a pattern of names may be none
+  std::size_t expected = 0;       ///< the number of files required by the sizes of a MetaImage
+  bool are_understood = true;     ///< false if a pattern of names is invalid
 };
 
-/// The files that the content of a field names with the lines after it: a list, a pattern such as slice%03d.raw with
-/// the first and the last number and the step, or one file. `sizes` are those of a MetaImage along its axes, or none.
+/// The files named by the content of a field and the lines after it: a list, a pattern such as slice%03d.raw with the
+/// first and last number and the step, or one file. `sizes` are those of a MetaImage along its axes, or empty.
 Data_files data_files_in(std::string_view content, std::string_view following_lines,
                          const std::vector<std::size_t>& sizes);
 
-/// Throws `Input_error` unless the files that a MetaImage or NRRD header names exist, are as many as slices, and lie in
-/// the folder of the header or below it, or are allowed outside. What a link there leads to is allowed.
+/// Throws `Input_error` unless the files named by a MetaImage or NRRD header exist, match the number of slices, and are
+/// in the folder of the header or below it, unless `allows_outside`. Targets of links there are allowed.
 void check_data_files(const std::string& path, Volume_format format, bool allows_outside);
 
-/// The bytes that a reader has to look at: those of the file, with the files that a MetaImage or NRRD header names, or
-/// those of all files in a folder, which has no format. A file that cannot be read counts for nothing.
+/// The number of bytes to read: those of the file and of the files named by a MetaImage or NRRD header, or those of all
+/// files in a folder, which has no format. A file that cannot be read counts as 0.
 double size_of_volume(const std::string& path, std::optional<Volume_format> format);
 
-/// The paths of the files that are read with a volume: those that its header names, or all in a folder.
+/// The files that are read with a volume: those named by its header, or all files of a folder.
 std::vector<std::string> files_of_volume(const std::string& path, std::optional<Volume_format> format);
 
-/// Finds so many samples of a MetaImage, NRRD, NIfTI-1 or VTI file, if they are neither compressed nor in another byte
-/// order than that of this computer, nor to be scaled, and lie in one file. `type` is a position in raw_types. The
-/// header has been checked.
+/// Finds the `count` samples of a MetaImage, NRRD, NIfTI-1 or VTI file if they are in one file, uncompressed, unscaled
+/// and in the byte order of this computer. `type` is a position in raw_types. \pre the header has been checked
 std::optional<Raw_data> find_raw_data(const std::string& path, Volume_format format, std::size_t type,
                                       std::size_t count);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks of the headers of MetaImage and VTI, which ITK and VTK read, in a program without these libraries, too.
+// Checks of the headers of MetaImage and VTI, also in a program without ITK and VTK, which read them.
 #include "volume/header_text.h"
 #include "volume/volume_formats.h"
 
@@ -18,9 +18,9 @@ namespace equiaffine {
 
 namespace {
 
-constexpr long long largest_number_of_axes = 10; // that of the MetaIO library
+constexpr long long largest_number_of_axes = 10; // of the MetaIO library
 
-/// Checks a field that holds numbers, one per axis or, for a matrix, one per pair of axes.
+/// Checks a field with one number per axis or, for a matrix, per pair of axes.
 void check_numbers(const std::string& path, std::string_view field, std::string_view content, std::size_t axes) {
   for (const std::string_view name : {"ElementSpacing", "ElementSize", "Offset", "Position", "Origin"})
     if (field == name && !to_numbers(content, axes))
@@ -48,7 +48,7 @@ void check_meta_header(const std::string& path) {
     const auto& [field, content] = *found;
     if (field == "NDims") {
       const std::optional<long long> count = to_integer(content, 1, largest_number_of_axes);
-      if (!count) fail_at_field(path, field, content, "write the number of axes, which is 3");
+      if (!count) fail_at_field(path, field, content, "write the number of axes, 3 for a volume");
       axes = std::size_t(*count);
     } else if (field == "ElementDataFile") return;
     else if (axes > 0) check_numbers(path, field, content, axes);
@@ -82,16 +82,16 @@ Lattice_3<Kernel>::Size size_in(const std::string& path, std::string_view elemen
   return size;
 }
 
-/// VTK's reader crashes at arrays of strings.
+/// VTK's reader crashes for arrays of strings.
 void check_type(const std::string& path, std::string_view array) {
   constexpr std::array<std::string_view, 11> types = {"Int8",  "UInt8",  "Int16",   "UInt16",  "Int32", "UInt32",
                                                       "Int64", "UInt64", "Float32", "Float64", "Bit"};
   const std::string_view type = xml_attribute(array, "type").value_or("");
   if (std::find(types.begin(), types.end(), type) == types.end())
-    fail_at_field(path, "a DataArray of type", type, "convert it to Float32 or Float64");
+    fail_at_field(path, "a DataArray of the type", type, "convert it to Float32 or Float64");
 }
 
-/// How a file writes the length of an array before its bytes.
+/// The format of the length of an array before its bytes.
 struct Length_format {
   std::size_t size;
   bool is_big_endian, is_compressed;
@@ -111,7 +111,7 @@ struct Length_format {
 
 constexpr std::string_view base64_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// The bytes that are written in base64, up to the first other character; blanks do not count.
+/// Decodes base64 up to the first other character; blanks are skipped.
 std::string decode_base64(std::string_view text) {
   std::string bytes;
   unsigned group = 0, bits = 0;
@@ -125,7 +125,7 @@ std::string decode_base64(std::string_view text) {
   return bytes;
 }
 
-/// The place of the last end of the appended data in a file, or 0.
+/// The offset of the last end tag of appended data in a file, or 0.
 std::streamoff end_of_appended_data(std::ifstream& file) {
   constexpr std::streamoff longest_rest = 1 << 12;
   file.clear();
@@ -137,8 +137,7 @@ std::streamoff end_of_appended_data(std::ifstream& file) {
   return end == std::string::npos ? 0 : begin + std::streamoff(end);
 }
 
-/// Checks that arrays among the appended data, which begin at `begin`, end before these do. VTK returns memory without
-/// a value for the others.
+/// Checks that arrays end within the appended data. For others, VTK returns uninitialized memory.
 void check_appended_arrays(const std::string& path, std::ifstream& file, bool is_raw, const Length_format& format,
                            const std::vector<std::streamoff>& places) {
   constexpr std::size_t longest_length = 12; // 8 bytes in base64
@@ -155,12 +154,12 @@ void check_appended_arrays(const std::string& path, std::ifstream& file, bool is
   }
 }
 
-/// Checks the arrays of a file, which may stand anywhere before the appended data, which are no XML.
+/// Checks the arrays of a file. They may be anywhere before the appended data, which are not XML.
 void check_arrays(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string element, text;
   Length_format format("");
-  std::vector<std::streamoff> places; // of arrays among the appended data
+  std::vector<std::streamoff> places; // of appended arrays
   while (file.ignore(std::numeric_limits<std::streamsize>::max(), '<') && std::getline(file, element, '>')) {
     if (element.starts_with("VTKFile")) format = Length_format(element);
     if (element.starts_with("AppendedData")) break;
@@ -187,7 +186,7 @@ void check_vti_header(const std::string& path) {
   const std::string beginning = beginning_of(path, longest_beginning);
   const std::size_t begin = beginning.find("<ImageData");
   if (begin == std::string::npos)
-    fail_to_read_volume(path, "its header is damaged, it has no element ImageData", "get the complete file again");
+    fail_to_read_volume(path, "its header has no element ImageData", "get the complete file again");
   const std::string_view element = std::string_view(beginning).substr(begin, beginning.find('>', begin) - begin);
   const Kernel::Vector_3 spacing = vector_in(path, element, "Spacing", 1),
                          origin = vector_in(path, element, "Origin", 0);

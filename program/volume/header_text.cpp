@@ -21,7 +21,7 @@ constexpr std::string_view spaces = " \t\r\n";
 
 using Gzip_file = std::unique_ptr<gzFile_s, int (*)(gzFile)>;
 
-/// zlib reads plain files as they are.
+/// zlib also reads uncompressed files.
 Gzip_file open_gzip(const std::string& path) { return {gzopen(path.c_str(), "rb"), gzclose}; }
 
 template <class Number>
@@ -77,8 +77,7 @@ std::optional<Meta_field> meta_field(std::string_view line) {
   const std::size_t at = line.find_first_of(separators);
   if (at == std::string_view::npos) return std::nullopt;
   std::string_view name = line.substr(0, at), content = line.substr(at);
-  content.remove_prefix(
-      std::min(content.find_first_not_of("=: \t"), content.size())); // as the MetaIO library skips them
+  content.remove_prefix(std::min(content.find_first_not_of("=: \t"), content.size())); // as the MetaIO library does
   return Meta_field{take_line(name), take_line(content)};
 }
 

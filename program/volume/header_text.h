@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads the beginnings of volume files, also of compressed ones, and splits the text of headers into fields and
-// numbers.
+// Reads the beginnings of volume files, also compressed ones, and parses fields and numbers of headers.
 #ifndef EQUIAFFINE_PROGRAM_VOLUME_HEADER_TEXT_H
 #define EQUIAFFINE_PROGRAM_VOLUME_HEADER_TEXT_H
 
@@ -12,48 +11,49 @@
 
 namespace equiaffine {
 
-/// The first bytes of a file, at most `size`; those of a file that gzip compressed are decompressed.
+/// The first bytes of a file, at most `size`, decompressed if it is a gzip file.
 std::string beginning_of(const std::string& path, std::size_t size);
 
-/// Reads bytes of a file, decompressed if gzip compressed it, from a place on; returns whether it has them.
+/// Reads `size` bytes from the offset `first` of a file, decompressed if it is a gzip file. Returns false if it is
+/// shorter.
 bool read_decompressed(const std::string& path, std::size_t first, std::size_t size, char* bytes);
 
-/// The number of bytes in a file, decompressed if gzip compressed it; nothing if it cannot be decompressed to its end.
+/// The number of bytes of a file, decompressed if it is a gzip file; nothing if it cannot be decompressed completely.
 std::optional<double> decompressed_size(const std::string& path);
 
-/// How much of a MetaImage or NRRD file is read as its header.
+/// The maximum length of the header of a MetaImage or NRRD file.
 constexpr std::size_t longest_header = 1 << 20;
 
-/// Whether gzip compressed a file.
+/// Whether a file is a gzip file.
 bool is_gzip(const std::string& path);
 
-/// Removes the first line from a text and returns it without the spaces at its ends.
+/// Removes the first line of a text and returns it without surrounding spaces.
 std::string_view take_line(std::string_view& text);
 
-/// A line of a MetaImage header: a name and, behind = or :, its content.
+/// A line of a MetaImage header: a name, = or :, and its content.
 struct Meta_field {
   std::string_view name, content;
 };
 
-/// The field that a line of a MetaImage header holds, or nothing if it has no separator.
+/// The field in a line of a MetaImage header, or nothing if it has no separator.
 std::optional<Meta_field> meta_field(std::string_view line);
 
-/// The content of an attribute of an XML element, or nothing if the element has none of that name.
+/// The content of an attribute of an XML element, or nothing if it does not have the attribute.
 std::optional<std::string_view> xml_attribute(std::string_view element, std::string_view name);
 
-/// The words of a text, which spaces, tabs and ends of lines separate.
+/// The words of a text, separated by spaces, tabs and line breaks.
 std::vector<std::string_view> words_of(std::string_view text);
 
-/// The finite number that a text is, and nothing but that.
+/// The whole text as a finite number.
 std::optional<double> to_number(std::string_view text);
 
-/// The integer in [lowest, highest] that a text is, and nothing but that.
+/// The whole text as an integer in [lowest, highest].
 std::optional<long long> to_integer(std::string_view text, long long lowest, long long highest);
 
-/// The finite numbers that a text is, separated by spaces; nothing if there are not exactly `count`.
+/// The whole text as `count` finite numbers, separated by spaces.
 std::optional<std::vector<double>> to_numbers(std::string_view text, std::size_t count);
 
-/// Throws `Input_error` that says what a field of a header holds and gives the advice.
+/// Throws `Input_error`: "cannot read the volume 'path': its header has field 'content'; advice".
 [[noreturn]] void fail_at_field(const std::string& path, std::string_view field, std::string_view content,
                                 const std::string& advice);
 

@@ -43,7 +43,7 @@ constexpr std::array extensions = {
     Extension{".inr", Volume_format::INR, false},  Extension{".inr.gz", Volume_format::INR, false},
     Extension{".vti", Volume_format::VTI, true},   Extension{".dcm", Volume_format::DICOM, false}};
 
-/// Whether a file says itself that it is one of DICOM, whose files often have no extension.
+/// Whether a file has the mark of DICOM, since DICOM files often have no extension.
 bool is_dicom(const std::string& path) {
   constexpr std::string_view mark = "DICM";
   constexpr std::streamoff place = 128;
@@ -72,14 +72,14 @@ constexpr bool has_vtk = true;
 constexpr bool has_vtk = false;
 #endif
 
-/// The library that reads and writes a format, if this program was built without it; otherwise nothing.
+/// The library for a format if this program was built without it; otherwise empty.
 std::string_view missing_library(Volume_format format, bool is_written) {
   if (format == Volume_format::INR || (format == Volume_format::NIFTI && !is_written)) return {};
   if (format == Volume_format::VTI) return has_vtk ? "" : "VTK";
   return has_itk ? "" : "ITK";
 }
 
-/// The extensions that this program reads, or only those that it also writes.
+/// The extensions that this program can read, or those that it can write.
 std::string known_extensions(bool written_only) {
   std::string list;
   for (const Extension& extension : extensions)
@@ -104,16 +104,17 @@ std::string advice_for_writing() {
 Extension find_written_extension(const std::string& path) {
   const std::optional<Extension> extension = find_extension(path);
   if (!extension || !extension->is_written)
-    throw Input_error("cannot write the volume '" + path + "': " +
-                      (extension ? std::string(extension->text) + " is only read" : "its extension is not known") +
-                      "; " + advice_for_writing());
+    throw Input_error(
+        "cannot write the volume '" + path +
+        "': " + (extension ? std::string(extension->text) + " cannot be written, only read" : "unknown extension") +
+        "; " + advice_for_writing());
   if (const auto library = missing_library(extension->format, true); !library.empty())
     throw Input_error("cannot write the volume '" + path + "': " + built_without(library) + "; " +
                       advice_for_writing());
   return *extension;
 }
 
-/// The bytes that the files of a volume have, or 0 if that is not known.
+/// The bytes of the files of a volume, or 0 if unknown.
 double bytes_in_files(const std::string& path) {
   if (const std::optional<Extension> extension = find_extension(path)) return size_of_volume(path, extension->format);
   std::error_code error;
@@ -128,12 +129,11 @@ void fail_to_read_volume(const std::string& path, const std::string& reason, con
 }
 
 void fail_to_read_volume_data(const std::string& path) {
-  fail_to_read_volume(path, "the data are damaged or end before the size stated in the header",
-                      "get the complete file again");
+  fail_to_read_volume(path, "the data are damaged or shorter than stated in the header", "get the complete file again");
 }
 
 void fail_to_read_volume_type(const std::string& path) {
-  fail_to_read_volume(path, "its type of numbers is not supported", "convert it to float or double");
+  fail_to_read_volume(path, "its sample type is not supported", "convert it to float or double");
 }
 
 namespace {
@@ -145,32 +145,31 @@ std::size_t chosen(const std::string& path, const std::string& option, std::opti
   fail_to_read_volume(
       path, "it has " + std::to_string(count) + ' ' + text,
       count == 1 ? "leave out " + option_text(option)
-                 : by_front_end("choose one by " + option_text(option, "N") + " from 1 to " + std::to_string(count),
-                                "give a file with one"));
+                 : by_front_end("choose one with " + option_text(option, "N") + ", from 1 to " + std::to_string(count),
+                                "give a file with only one"));
 }
 
 } // namespace
 
 std::size_t chosen_component(const std::string& path, const Volume_selection& selection, std::size_t count) {
-  return chosen(path, "component", selection.component, count, count == 1 ? "number per node" : "numbers per node");
+  return chosen(path, "component", selection.component, count, count == 1 ? "component" : "components");
 }
 
 std::size_t chosen_time(const std::string& path, const Volume_selection& selection, std::size_t count) {
-  return chosen(path, "time", selection.time, count, count == 1 ? "volume" : "volumes, one after the other");
+  return chosen(path, "time", selection.time, count, count == 1 ? "volume" : "volumes");
 }
 
 void admit_nodes(const std::string& path, const Lattice_3<Kernel>::Size& size, std::size_t bytes_of_sample) {
-  // A reader holds the samples once or twice itself, at most as doubles, beside those in shared memory.
+  // A reader may hold the samples once or twice, at most as doubles, in addition to those in shared memory.
   constexpr double copies = 4, for_small_volumes = 1 << 28;
   const double nodes = double(size[0]) * double(size[1]) * double(size[2]);
   const std::string size_text =
       std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]);
   if (*std::min_element(size.begin(), size.end()) < 2)
-    fail_to_read_volume(path, "it has " + size_text + " nodes",
-                        "a volume needs at least 2 nodes along each of its axes");
+    fail_to_read_volume(path, "it has " + size_text + " nodes", "give a volume with at least 2 nodes along each axis");
   const double bytes = double(bytes_of_sample) * nodes;
-  if (bytes > physical_memory() && bytes > bytes_in_files(path)) // else they may stay in the file
-    fail_to_read_volume(path, "it has " + size_text + " nodes and does not fit into memory",
+  if (bytes > physical_memory() && bytes > bytes_in_files(path)) // otherwise they may stay in the file
+    fail_to_read_volume(path, "it has " + size_text + " nodes, which do not fit into memory",
                         "check its header or crop it");
   allow_memory(copies * sizeof(double) * nodes + for_small_volumes);
 }
@@ -183,12 +182,12 @@ Lattice_3<Kernel> make_lattice(const std::string& path, const Lattice_3<Kernel>:
   const bool is_finite =
       std::isfinite(determinant) && std::isfinite(origin.x()) && std::isfinite(origin.y()) && std::isfinite(origin.z());
   if (!is_finite || determinant == 0)
-    fail_to_read_volume(path, "its origin, spacings and directions do not span a grid in space", "correct its header");
+    fail_to_read_volume(path, "its origin, spacings and directions do not define a grid", "correct its header");
   return Lattice_3<Kernel>(size, origin, steps);
 }
 
 Captured_standard_error::Captured_standard_error() : file_(std::tmpfile(), std::fclose) {
-  if (!file_) throw Input_error("cannot make a temporary file; make room in the folder for temporary files");
+  if (!file_) throw Input_error("cannot create a temporary file; free space in the folder for temporary files");
   std::fflush(stderr);
   saved_ = ::dup(STDERR_FILENO);
   ::dup2(::fileno(file_.get()), STDERR_FILENO);
@@ -230,9 +229,9 @@ void read_here(const std::string& path, Volume_format format, Samples_in where, 
 
 Volume_view_3<Kernel> read_in_child(const std::string& path, std::optional<Volume_format> format, Samples_in where,
                                     const Volume_selection& selection) {
-  constexpr double seconds = 10, bytes_per_second = 20e6; // a reader takes a tenth of that
+  constexpr double seconds = 10, bytes_per_second = 20e6; // ten times what a reader needs
   constexpr double memory_for_header = 1 << 29, copies = 4;
-  // A volume that takes more than the memory is not read.
+  // A volume larger than the memory is not read.
   const double size = std::min(physical_memory(), size_of_volume(path, format));
   try {
     Shared_volume volume;
@@ -240,7 +239,7 @@ Volume_view_3<Kernel> read_in_child(const std::string& path, std::optional<Volum
                  {seconds + size / bytes_per_second, memory_for_header + copies * size});
     return volume.view(path);
   } catch (const Child_failure& failure) {
-    fail_to_read_volume(path, std::string("the library that reads this format ") + failure.what(), failure.advice());
+    fail_to_read_volume(path, std::string("the library for this format ") + failure.what(), failure.advice());
   } catch (const std::bad_alloc&) {
     fail_to_read_volume(path, "it does not fit into memory", "check its header or crop it");
   }
@@ -258,7 +257,7 @@ Volume_view_3<Kernel> read_volume(const std::string& path, Samples_in where, con
   }
   const std::optional<Extension> extension = find_extension(path);
   if (!extension)
-    fail_to_read_volume(path, "its extension is not known",
+    fail_to_read_volume(path, "unknown extension",
                         "use one of " + known_extensions(false) + " or a folder with a DICOM series");
   if (const auto library = missing_library(extension->format, false); !library.empty())
     fail_to_read_volume_without(library, path);
@@ -313,9 +312,9 @@ Volume_view_3<Kernel> read_raw_volume(const std::string& path, const Raw_layout&
   const double expected = double(layout.dims[0]) * double(layout.dims[1]) * double(layout.dims[2]) * double(width);
   if (double(size) != expected)
     fail_to_read_volume(path,
-                        "it has " + std::to_string(size) + " bytes, and " + std::to_string(layout.dims[0]) + " x " +
+                        "it has " + std::to_string(size) + " bytes, but " + std::to_string(layout.dims[0]) + " x " +
                             std::to_string(layout.dims[1]) + " x " + std::to_string(layout.dims[2]) + " samples of " +
-                            std::string(raw_types[layout.type]) + " have " + std::to_string(std::uint64_t(expected)),
+                            std::string(raw_types[layout.type]) + " need " + std::to_string(std::uint64_t(expected)),
                         "correct " + option_text("dims") + " or " + option_text("type"));
   std::shared_ptr<const Mapped_file> file;
   try {

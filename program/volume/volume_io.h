@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads and writes volumes in the format that the extension of a path names.
+// Reads and writes volumes, in the format of the path's extension.
 #ifndef EQUIAFFINE_PROGRAM_VOLUME_VOLUME_IO_H
 #define EQUIAFFINE_PROGRAM_VOLUME_VOLUME_IO_H
 
@@ -14,37 +14,36 @@
 
 namespace equiaffine {
 
-/// Reads a volume of scalars: `.nii .nii.gz`; `.nrrd .nhdr .mhd .mha`, a DICOM file with several frames or a folder
-/// with one DICOM series through ITK; `.inr .inr.gz` through CGAL; `.vti` through VTK, whose nodes are the centers of
-/// cells if only these have numbers. Samples keep their type, but those of DICOM and of scaled NIfTI become double.
-/// Node (i, j, k) lies at origin + directions * spacings * (i, j, k): for ITK's formats in ITK's physical frame
+/// Reads a volume of scalars: `.nii .nii.gz`; `.nrrd .nhdr .mhd .mha`, a multi-frame DICOM file or a folder with one
+/// DICOM series with ITK; `.inr .inr.gz` with CGAL; `.vti` with VTK, with nodes at the centers of cells if only cells
+/// have numbers. Samples keep their type, except those of DICOM and of scaled NIfTI, which become double.
+/// Node (i, j, k) is at origin + directions * spacings * (i, j, k): for ITK's formats in ITK's physical frame
 /// (millimeters; x to the left, y to the back, z up), for `.inr` at (TX + VX i, TY + VY j, TZ + VZ k), as in
 /// `CGAL::Image_3`.
-/// Throws `Input_error` for everything that is not a complete volume with two nodes or more per axis.
+/// Throws `Input_error` for anything other than a complete volume with at least two nodes per axis.
 Volume_view_3<Kernel> read_volume(const std::string& path, Samples_in where = Samples_in::FILE,
                                   const Volume_selection& selection = {});
 
-/// Reads samples one after the other, the first index fastest, in the byte order of this computer. Throws `Input_error`
-/// unless the file has exactly the size that the layout says.
+/// Reads contiguous samples, the first index fastest, in the byte order of this computer. Throws `Input_error` unless
+/// the file has exactly the size of the layout.
 Volume_view_3<Kernel> read_raw_volume(const std::string& path, const Raw_layout& layout);
 
-/// The paths of the files that are read with a volume: those that its header names, or all in a folder.
+/// The files that are read with a volume: those named by its header, or all files of a folder.
 std::vector<std::string> files_read_with(const std::string& path);
 
-/// Whether a path is that of a folder or of a DICOM file, or has an extension of files that hold volumes, `.raw`
-/// included.
+/// Whether a path is a folder or a DICOM file, or has an extension of volumes, including `.raw`.
 bool is_volume(const std::string& path);
 
-/// Throws `Input_error` unless this program, with the libraries that it was built with, writes the extension of `path`.
+/// Throws `Input_error` unless this program, with its libraries, can write the extension of `path`.
 void check_volume_output(const std::string& path);
 
-/// Writes `.nrrd .mhd .mha .nii .nii.gz` through ITK or `.vti` through VTK, as float or double, without committing
-/// `file`. NIfTI holds its geometry in single precision and only perpendicular steps: where it would move a node by
-/// more than a thousandth of the shortest step, it is refused by an `Input_error`. The other formats hold any lattice.
-/// A file that ITK wrote is read back once, because ITK does not notice a full disk.
+/// Writes `.nrrd .mhd .mha .nii .nii.gz` with ITK or `.vti` with VTK, as float or double, without committing `file`.
+/// NIfTI stores only orthogonal steps, in single precision: throws `Input_error` if that would move a node by more than
+/// 1/1000 of the shortest step. The other formats store any lattice. Files of ITK are read back once, because ITK does
+/// not detect a full disk.
 void write_volume(Output_file& file, const Volume_3<Kernel>& volume, bool as_float);
 
-/// Writes the volume to a file of its own and commits it.
+/// Writes the volume to a file and commits it.
 void write_volume(const std::string& path, const Volume_3<Kernel>& volume, bool as_float);
 
 } // namespace equiaffine

@@ -34,8 +34,8 @@ namespace {
 
 /// A slice of a volume: a file of a series, or one of the frames of a file.
 struct Dicom_frame {
-  std::string file;  ///< its path
-  std::size_t index; ///< among the frames of the file
+  std::string file;  ///< path
+  std::size_t index; ///< in the file
   std::string name;  ///< 'slice.dcm', or frame 3 of 'volume.dcm'
   std::array<std::size_t, 2> size;
   Kernel::Point_3 position;                     ///< of the first pixel, in millimeters
@@ -43,9 +43,9 @@ struct Dicom_frame {
   std::optional<std::array<double, 2>> scaling; ///< slope and intercept, if frames have their own
 };
 
-/// What the header of a file with an image says.
+/// The header of a file with an image.
 struct Dicom_header {
-  std::string series; ///< the identifier of the series that the file belongs to
+  std::string series; ///< the identifier of the file's series
   std::vector<Dicom_frame> frames;
 };
 
@@ -57,10 +57,10 @@ const gdcm::Tag series_identifier(0x0020, 0x000E), frame_count(0x0028, 0x0008), 
     spacing_between_slices(0x0018, 0x0088), grid_frame_offsets(0x3004, 0x000C), rescale_intercept(0x0028, 0x1052),
     rescale_slope(0x0028, 0x1053);
 
-/// The sequences that hold what all frames, and what each frame of an enhanced image has; their items hold sequences.
+/// The sequences with data of all frames, and of each frame, of an enhanced image; their items contain sequences.
 const gdcm::Tag shared_groups(0x5200, 0x9229), frame_groups(0x5200, 0x9230), plane_position(0x0020, 0x9113),
     plane_orientation(0x0020, 0x9116), pixel_measures(0x0028, 0x9110), value_transformation(0x0028, 0x9145),
-    detectors(0x0054, 0x0022); ///< the last one has the place of images of nuclear medicine
+    detectors(0x0054, 0x0022); ///< the last one has the position of images of nuclear medicine
 
 using Items = gdcm::SmartPointer<gdcm::SequenceOfItems>;
 
@@ -91,7 +91,7 @@ public:
     for (std::size_t f = 0; f < count; ++f) {
       const auto [row, column] = directions_of(f);
       const auto spacing = found(f, pixel_measures, pixel_spacing, 2);
-      if (!spacing) fail("it does not say how far apart its pixels are (0028,0030)");
+      if (!spacing) fail("the spacing of its pixels (0028,0030) is missing");
       const auto place = found(f, plane_position, image_position, 3).value_or(std::vector<double>(3));
       frames.push_back({file_,
                         f,
@@ -106,10 +106,11 @@ public:
 
 private:
   [[noreturn]] void fail(const std::string& reason) const {
-    fail_to_read_volume(path_, name_ + " cannot be placed: " + reason, "correct its header, or convert it to .nrrd");
+    fail_to_read_volume(path_, name_ + " has no valid position: " + reason,
+                        "correct its header, or convert it to .nrrd");
   }
 
-  /// So many numbers of an element of decimal numbers, if there is one that is not empty.
+  /// The `count` decimal numbers of an element, or nothing if it is missing or empty.
   std::optional<std::vector<double>> numbers_in(const gdcm::DataSet& data, const gdcm::Tag& tag,
                                                 std::size_t count) const {
     const std::optional<std::string> text = text_in(data, tag);
@@ -133,7 +134,7 @@ private:
     return numbers_in(items->GetItem(1).GetNestedDataSet(), tag, count);
   }
 
-  /// The numbers that all frames have in common.
+  /// The numbers common to all frames.
   std::optional<std::vector<double>> common(const gdcm::Tag& group, const gdcm::Tag& tag, std::size_t count) const {
     if (auto numbers = numbers_of_group(shared_, 0, group, tag, count)) return numbers;
     if (auto numbers = numbers_in(data_, tag, count)) return numbers;
@@ -153,12 +154,12 @@ private:
     if (!(count >= 1 && count <= INT_MAX && count == std::floor(count)))
       fail("its number of frames (0028,0008) is not a positive integer");
     if (frames_ && double(frames_->GetNumberOfItems()) != count)
-      fail("it has " + std::to_string(std::size_t(count)) + " frames and the places of " +
+      fail("it has " + std::to_string(std::size_t(count)) + " frames, but positions of " +
            std::to_string(frames_->GetNumberOfItems()));
     return std::size_t(count);
   }
 
-  /// How far the frames lie from the place that they have in common, along the normal.
+  /// The offsets of the frames from their common position, along the normal.
   std::vector<double> offsets_of(std::size_t count) const {
     std::vector<double> offsets(count);
     if (count == 1 || numbers_of_group(frames_, 0, plane_position, image_position, 3)) return offsets;
@@ -168,8 +169,8 @@ private:
     }
     const auto spacing = common(pixel_measures, spacing_between_slices, 1);
     if (!spacing)
-      fail("it says neither where its " + std::to_string(count) +
-           " frames are (0020,0032) nor how far apart (0018,0088)");
+      fail("both the positions (0020,0032) and the spacing (0018,0088) of its " + std::to_string(count) +
+           " frames are missing");
     for (std::size_t f = 0; f < count; ++f) offsets[f] = double(f) * spacing->front();
     return offsets;
   }
@@ -196,8 +197,8 @@ private:
   Items shared_, frames_, detectors_;
 };
 
-/// Whether a file ends before its last pixel, if that is known without decompressing it. The reader has read all up to
-/// the first one.
+/// Whether a file ends before its last pixel, as far as this is known without decompressing it. \pre the reader has
+/// read up to the first pixel
 bool ends_early(const gdcm::Reader& reader, const std::string& file, const Dicom_header& header) {
   const gdcm::TransferSyntax syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
   if (syntax.IsEncapsulated() || syntax == gdcm::TransferSyntax::DeflatedExplicitVRLittleEndian) return false;
@@ -212,9 +213,8 @@ bool ends_early(const gdcm::Reader& reader, const std::string& file, const Dicom
   return error || bytes - double(reader.GetStreamCurrentPosition()) < pixels * samples.GetValue() * bits.GetValue() / 8;
 }
 
-/// Reads the header of a file in DICOM's format; returns nothing for a file in another one, or without an image. The
-/// volume `path` is for messages. Throws `Input_error` for a damaged header, and if it does not say where its frames
-/// lie.
+/// Reads the header of a DICOM file; returns nothing for a file in another format, or without an image. The volume
+/// `path` is for messages. Throws `Input_error` for a damaged header, and if positions of frames are missing.
 std::optional<Dicom_header> read_dicom_header(const std::string& path, const std::string& file) {
   gdcm::Reader reader;
   reader.SetFileName(file.c_str());
@@ -243,13 +243,13 @@ std::optional<Dicom_header> read_dicom_header(const std::string& path, const std
 
 using Frames = std::vector<Dicom_frame>;
 
-/// The largest distance of a pixel from its place in the lattice, as a part of the step between slices: places are
+/// The maximum distance of a pixel from its position in the lattice, relative to the step between slices: positions are
 /// rounded decimals.
 constexpr double largest_deviation = 1e-2;
 
 double length_of(const Vector_3& v) { return std::hypot(v.x(), v.y(), v.z()); }
 
-/// The frames of a file, or of all files in a folder, which are of one series.
+/// The frames of a file, or of all files in a folder, which must be of one series.
 Frames find_frames(const std::string& path) {
   std::error_code error;
   const bool is_folder = std::filesystem::is_directory(path, error);
@@ -265,13 +265,12 @@ Frames find_frames(const std::string& path) {
     frames.insert(frames.end(), header->frames.begin(), header->frames.end());
   }
   if (is_folder && series.size() != 1)
-    fail_to_read_volume(path, "the folder holds " + std::to_string(series.size()) + " DICOM series",
+    fail_to_read_volume(path, "the folder contains " + std::to_string(series.size()) + " DICOM series",
                         series.empty() ? "name a folder with DICOM files or a volume file"
                                        : "move the files of one series to a folder of their own");
-  if (frames.empty()) fail_to_read_volume(path, "it is no DICOM file with an image", "get the complete file again");
+  if (frames.empty()) fail_to_read_volume(path, "it is not a DICOM file with an image", "get the complete file again");
   if (frames.size() == 1)
-    fail_to_read_volume(path, "it has one slice only",
-                        "name the folder with all files of its series, which has at least 2");
+    fail_to_read_volume(path, "it has only one slice", "name the folder with all files of its series, at least 2");
   return frames;
 }
 
@@ -281,7 +280,7 @@ std::string text_of(double number) {
   return text.str();
 }
 
-/// Throws unless the slices have as many pixels, which are as far apart and in the same directions.
+/// Throws unless all slices have the same numbers, spacings and directions of pixels.
 void check_are_alike(const std::string& path, const Frames& frames) {
   const auto size_text = [](const Dicom_frame& frame) {
     return std::to_string(frame.size[0]) + " x " + std::to_string(frame.size[1]);
@@ -290,17 +289,17 @@ void check_are_alike(const std::string& path, const Frames& frames) {
   for (const Dicom_frame& frame : frames) {
     if (frame.size != first.size)
       fail_to_read_volume(
-          path, frame.name + " has " + size_text(frame) + " pixels, and " + first.name + " has " + size_text(first),
+          path, frame.name + " has " + size_text(frame) + " pixels, but " + first.name + " has " + size_text(first),
           "leave out the slices that belong to another volume");
     const double shift = double(first.size[0] - 1) * length_of(frame.steps[0] - first.steps[0]) +
                          double(first.size[1] - 1) * length_of(frame.steps[1] - first.steps[1]);
     if (!(shift <= largest_deviation * length_of(first.steps[0])))
-      fail_to_read_volume(path, frame.name + " is turned or scaled against " + first.name,
+      fail_to_read_volume(path, frame.name + " is rotated or scaled relative to " + first.name,
                           "leave out the slices that belong to another volume");
   }
 }
 
-/// Names the frames, which are sorted and not evenly spaced, that are closest to and farthest from each other.
+/// Throws an error with the closest and the farthest neighbors of sorted frames that are not evenly spaced.
 [[noreturn]] void fail_at_gap(const std::string& path, const Frames& frames, double mean_distance) {
   const auto distance = [&](std::size_t f) { return length_of(frames[f + 1].position - frames[f].position); };
   const auto pair = [&](std::size_t f) { return frames[f].name + " and " + frames[f + 1].name; };
@@ -310,14 +309,15 @@ void check_are_alike(const std::string& path, const Frames& frames) {
     if (distance(f) > distance(farthest)) farthest = f;
   }
   if (distance(closest) <= largest_deviation * mean_distance)
-    fail_to_read_volume(path, pair(closest) + " are in one place", "leave out one of them, or one of two volumes");
+    fail_to_read_volume(path, pair(closest) + " have the same position",
+                        "leave out one of them, or one of two volumes");
   fail_to_read_volume(path,
                       "its slices are not evenly spaced: " + pair(farthest) + " are " + text_of(distance(farthest)) +
-                          " apart, and " + pair(closest) + ' ' + text_of(distance(closest)),
-                      "add the missing ones or resample it first");
+                          " mm apart, but " + pair(closest) + ' ' + text_of(distance(closest)) + " mm",
+                      "add the missing slices or resample the volume first");
 }
 
-/// Sorts the frames along their normal, and makes the lattice whose slices they are. Throws for gaps.
+/// Sorts the frames along their normal, and makes their lattice. Throws if there are gaps.
 Lattice_3<Kernel> lattice_of(const std::string& path, Frames& frames) {
   const auto [row, column] = frames.front().steps;
   const Vector_3 normal = CGAL::cross_product(row, column);
@@ -333,7 +333,7 @@ Lattice_3<Kernel> lattice_of(const std::string& path, Frames& frames) {
                       {row, column, step});
 }
 
-/// Reads the frames of a file to their places, `slices`, among all.
+/// Reads the frames of a file into their `slices` of the volume.
 void read_file(const std::string& path, const std::string& file, const std::vector<std::size_t>& slices,
                const Frames& frames, const Volume_selection& selection, double* values) {
   const itk::GDCMImageIO::Pointer io = itk::GDCMImageIO::New();
@@ -345,7 +345,7 @@ void read_file(const std::string& path, const std::string& file, const std::vect
   io->SetIORegion(whole_region(*io));
   std::vector<char> bytes(pixels * slices.size() * components * size_of_sample(type));
   io->Read(bytes.data());
-  // ITK scales all frames of a file as it scales the first one.
+  // ITK scales all frames of a file like the first one.
   const std::array<double, 2> common = {io->GetRescaleSlope(), io->GetRescaleIntercept()};
   for (const std::size_t slice : slices) {
     const auto [slope, intercept] = frames[slice].scaling.value_or(common);
@@ -375,7 +375,7 @@ void read_dicom_volume(const std::string& path, const Volume_selection& selectio
   try {
     for (const auto& [file, slices] : slices_of_files) read_file(path, file, slices, frames, selection, values);
   } catch (const itk::ExceptionObject& exception) {
-    fail_to_read_volume(path, "a file of the series is not understood" + reason_of(exception),
+    fail_to_read_volume(path, "a file of the series cannot be read" + reason_of(exception),
                         "get the complete series again or convert it");
   }
 }

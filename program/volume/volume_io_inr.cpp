@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view magic = "#INRIMAGE-4#{", end_of_header = "##}\n";
 
-/// The fields of the header, which has lines NAME=CONTENT.
+/// The fields of the header: lines NAME=CONTENT.
 std::map<std::string_view, std::string_view> fields_of(std::string_view header) {
   std::map<std::string_view, std::string_view> fields;
   while (!header.empty()) {
@@ -42,7 +42,7 @@ public:
 
   Lattice_3<Kernel>::Size number_of_nodes() const { return {positive("XDIM"), positive("YDIM"), positive("ZDIM")}; }
 
-  /// The bytes of all samples that the header speaks of.
+  /// The bytes of all samples, according to the header.
   double size_of_data() const {
     double size = double(positive("PIXSIZE")) / 8;
     for (const std::size_t nodes : number_of_nodes()) size *= double(nodes);
@@ -95,7 +95,7 @@ private:
 };
 
 std::size_t sample_type_of(const CGAL::Image_3& image) {
-  using namespace CGAL; // where CGAL 6 has the constants, which are global in CGAL 5
+  using namespace CGAL; // for the constants, which are global in CGAL 5
   const auto& header = *image.image();
   return header.wordKind == WK_FLOAT ? floating_sample_type(header.wdim)
                                      : integer_sample_type(header.wdim, header.sign == SGN_SIGNED);
@@ -119,18 +119,18 @@ void check_inr_header(const std::string& path) {
   const std::optional<double> size = decompressed_size(path);
   if (!size || *size - double(end + end_of_header.size()) < expected)
     fail_to_read_volume(path,
-                        "it is not a complete INRIMAGE-4 file: its data end before " +
+                        "it is not a complete INRIMAGE-4 file: its data have less than " +
                             std::to_string(std::uint64_t(expected)) +
                             " bytes, the product of XDIM, YDIM, ZDIM, "
                             "VDIM and PIXSIZE",
-                        "get the complete file again or correct these");
+                        "get the complete file again or correct these fields");
   if (const double length = *size - double(end + end_of_header.size()); length > expected)
     fail_to_read_volume(path,
                         "its data have " + std::to_string(std::uint64_t(length)) +
-                            " bytes, and the product of "
+                            " bytes, but the product of "
                             "XDIM, YDIM, ZDIM, VDIM and PIXSIZE is " +
                             std::to_string(std::uint64_t(expected)),
-                        "correct these");
+                        "correct these fields");
   admit_nodes(path, header.number_of_nodes());
 }
 
@@ -145,7 +145,7 @@ void read_inr_volume(const std::string& path, const Volume_selection& selection,
   if (!has_been_read) fail_to_read_volume(path, "it is not a complete INRIMAGE-4 file", "get the complete file again");
   const auto& header = *image.image();
   if (header.rx != 0 || header.ry != 0 || header.rz != 0)
-    fail_to_read_volume(path, "its axes are rotated (RX, RY, RZ), which .inr readers ignore",
+    fail_to_read_volume(path, "its axes are rotated (RX, RY, RZ), which readers of .inr ignore",
                         "convert it to .nrrd or .mha");
   const Lattice_3<Kernel> lattice = make_lattice(
       path, {header.xdim, header.ydim, header.zdim}, Kernel::Point_3(header.tx, header.ty, header.tz),

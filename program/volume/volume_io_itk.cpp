@@ -59,11 +59,11 @@ namespace {
 using Point_3 = Kernel::Point_3;
 using Vector_3 = Kernel::Vector_3;
 
-/// The largest distance of a written node from its true place, in shortest steps.
+/// The maximum distance of a written node from its true position, relative to the shortest step.
 constexpr double largest_shift_in_cells = 1e-3;
 
 constexpr const char* could_not_be_stored =
-    "not everything could be stored; make room on the disk or choose another one";
+    "not everything could be stored; free space on the disk or choose another one";
 
 double length_of(const Vector_3& v) { return std::hypot(v.x(), v.y(), v.z()); }
 
@@ -79,15 +79,16 @@ itk::ImageIOBase::Pointer make_image_io(Volume_format format) {
   }
 }
 
-/// The axes after the first three are those of several volumes.
+/// The product of the sizes after the third axis.
 std::size_t number_of_volumes(const std::string& path, const itk::ImageIOBase& io) {
   if (io.GetNumberOfDimensions() < 3)
-    fail_to_read_volume(path, "it has " + std::to_string(io.GetNumberOfDimensions()) + " axes", "a volume needs 3");
+    fail_to_read_volume(path, "it has " + std::to_string(io.GetNumberOfDimensions()) + " axes",
+                        "give a file with 3 axes");
   constexpr double most_volumes = 1e8;
   double count = 1;
   for (unsigned axis = 3; axis < io.GetNumberOfDimensions(); ++axis) count *= double(io.GetDimensions(axis));
   if (!(count >= 1 && count <= most_volumes))
-    fail_to_read_volume(path, "its sizes beyond the third axis are not those of volumes", "correct its header");
+    fail_to_read_volume(path, "its sizes beyond the third axis are invalid", "correct its header");
   return std::size_t(count);
 }
 
@@ -114,8 +115,8 @@ void read_itk_volume(const std::string& path, Volume_format format, Samples_in w
   try {
     io->ReadImageInformation();
   } catch (const itk::ExceptionObject& exception) {
-    fail_to_read_volume(path, "its header is not understood" + reason_of(exception),
-                        "check that the extension is right and the file complete");
+    fail_to_read_volume(path, "its header cannot be read" + reason_of(exception),
+                        "check that the extension is right and the file is complete");
   }
   const std::size_t type = sample_type_of(path, *io), components = io->GetNumberOfComponents(),
                     times = number_of_volumes(path, *io);
@@ -139,7 +140,7 @@ void read_itk_volume(const std::string& path, Volume_format format, Samples_in w
   void* const samples = volume.allocate(lattice, type);
   try {
     io->Read(is_all ? samples : all.data());
-    // ITK 5.2 reports MetaImage data that end early or do not decompress on standard error only.
+    // ITK 5.2 reports MetaImage data that are truncated or cannot be decompressed only on standard error.
     const std::string report = standard_error.text();
     if (report.find("not read completely") != std::string::npos ||
         report.find("Uncompress failed") != std::string::npos)
@@ -152,8 +153,8 @@ void read_itk_volume(const std::string& path, Volume_format format, Samples_in w
 
 namespace {
 
-/// Reads back a file that was written, for two reasons. ITK does not notice a disk that fills up under MetaImage or
-/// NIfTI, and some formats cannot hold every lattice (NIfTI holds perpendicular steps only, in single precision).
+/// Reads back a written file, for two reasons: ITK does not detect a full disk for MetaImage and NIfTI, and some
+/// formats cannot store every lattice (NIfTI stores only orthogonal steps, in single precision).
 void check_written(const std::string& path, Volume_format format, const Lattice_3<Kernel>& lattice) {
   const Lattice_3<Kernel> stored = [&] {
     try {
@@ -173,7 +174,7 @@ void check_written(const std::string& path, Volume_format format, const Lattice_
   }
   for (const Vector_3& step : lattice.steps()) shortest_step = std::min(shortest_step, length_of(step));
   if (stored.size() != lattice.size() || !(distance <= largest_shift_in_cells * shortest_step))
-    throw Input_error("the format cannot hold this grid, its nodes would move by up to " + std::to_string(distance) +
+    throw Input_error("the format cannot store this grid: its nodes would move by up to " + std::to_string(distance) +
                       "; write .nrrd or .mha");
 }
 

@@ -39,7 +39,7 @@ void read_nifti_volume(const std::string& path, Samples_in where, const Volume_s
   check_nifti_header(path);
   const Nifti_header header(path);
   const Lattice_3<Kernel> lattice = header.lattice();
-  // Along the axes of the file the numbers side by side run fastest, then x, y, z, the time, and other components.
+  // The interleaved numbers run fastest, then x, y, z, the time, and other components.
   const std::size_t nodes = lattice.number_of_nodes(), type = header.sample_type(), size = size_of_sample(type),
                     times = header.size(4), side_by_side = header.numbers_side_by_side();
   const std::size_t components = side_by_side * header.size(5) * header.size(6) * header.size(7);

@@ -33,7 +33,7 @@ namespace equiaffine {
 
 namespace {
 
-/// Whether a VTK object has met an error: VTK reports it as an event.
+/// Whether a VTK object has reported an error event.
 class Error_flag {
 public:
   explicit Error_flag(vtkObject& object) {
@@ -52,16 +52,16 @@ private:
   vtkNew<vtkCallbackCommand> callback_;
 };
 
-/// The numbers at the points; those of cells if there are no others.
+/// The data at the points, or those of cells if there are none.
 vtkDataSetAttributes& data_of(const std::string& path, vtkImageData& image) {
   if (image.GetPointData()->GetNumberOfArrays() > 0) return *image.GetPointData();
   if (image.GetCellData()->GetNumberOfArrays() > 0) return *image.GetCellData();
-  fail_to_read_volume(path, "it has no numbers at its points or cells", "write it with an array of them");
+  fail_to_read_volume(path, "it has no data at its points or cells", "write it with an array of numbers");
 }
 
 vtkDataArray& scalars_of(const std::string& path, vtkDataSetAttributes& data) {
   if (!data.GetScalars() && data.GetNumberOfArrays() > 1)
-    fail_to_read_volume(path, "none of its arrays is marked as its scalars", "write it with one array");
+    fail_to_read_volume(path, "it has several arrays, none of them marked as scalars", "write it with one array");
   vtkDataArray* const array = data.GetScalars() ? data.GetScalars() : data.GetArray(0);
   if (!array) fail_to_read_volume_type(path);
   return *array;
@@ -105,7 +105,7 @@ Lattice_3<Kernel> lattice_of(const std::string& path, vtkImageData& image, bool 
   return make_lattice(path, size, origin, steps);
 }
 
-/// Says where in the file the samples are, if they are there as they are in memory.
+/// Makes the volume refer to the samples in the file, if they have the layout of memory. Returns whether they do.
 bool refer_to_samples(const std::string& path, vtkXMLImageDataReader& reader, Shared_volume& volume) {
   vtkNew<vtkImageData> image;
   {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the paper leaves open: the Pick invariant, the affine signature, parabolic curves."""
+"""Open questions of the paper: the Pick invariant, the affine signature, parabolic curves."""
 
 import math
 
@@ -12,7 +12,7 @@ from ..surfaces import BLOBBY, BLOBBY_BOX, TORUS, TORUS_BOX
 
 
 def gaussian_curvature_of_metric(metric, h):
-    """Brioschi's formula at the middle of a 7 x 7 table of (E, F, G) with steps h, by differences of order 6."""
+    """Brioschi's formula at the center of a 7 x 7 grid of (E, F, G) with step h, by finite differences of order 6."""
     first = [-1 / 60, 3 / 20, -3 / 4, 0, 3 / 4, -3 / 20, 1 / 60]
     second = [1 / 90, -3 / 20, 3 / 2, -49 / 18, 3 / 2, -3 / 20, 1 / 90]
     unit = [0, 0, 0, 1, 0, 0, 0]
@@ -34,7 +34,7 @@ def gaussian_curvature_of_metric(metric, h):
 
 
 class Graph:
-    """A graph z = g(x, y) that is no quadric, elliptic or hyperbolic according to the sign of c."""
+    """A graph z = g(x, y) that is not a quadric: elliptic for positive c, hyperbolic for negative c."""
 
     def __init__(self, c):
         self.c = c
@@ -77,7 +77,7 @@ def pick(lab):
         surface["affine_gaussian_curvature"], surface["affine_mean_curvature"], surface["gaussian_curvature"])]
     changes = [abs(a - b) / max(scale, abs(b)) for a, b, scale, is_regular in zip(
         after["pick_invariant"], surface["pick_invariant"], scales, surface.is_regular()) if is_regular]
-    lab.check("99 % of the vertices: relative change of J under a map of determinant 1", quantile(changes, 0.99),
+    lab.check("relative change of J under a map of determinant 1, for 99 % of the vertices", quantile(changes, 0.99),
               "<=", 1e-10)
 
     rows = []
@@ -85,11 +85,11 @@ def pick(lab):
         for x, y in ((0.1, 0.2), (-0.2, 0.1), (0.3, -0.1)):
             H, J, kappa = Graph(c).gauss_equation(lab, x, y)
             rows.append([f"{kind}, ({x}, {y})", H, J, H + J, kappa, abs(kappa - H - J) / (abs(H) + abs(J))])
-    lab.check("Gauss equation κ = H + J: greatest relative error, κ by differences of the metric",
+    lab.check("maximum relative error of the Gauss equation κ = H + J, κ by finite differences of the metric",
               greatest(row[-1] for row in rows), "<=", 1e-6)
     lab.table(["point", "H", "J", "H + J", "κ, Gaussian curvature of the affine metric", "relative difference"], rows)
-    lab.pictured("pick", "J on the surface of figure 3; black: its parabolic curves")
-    lab.say("κ knows nothing of H and J: it is made from the metric at 49 neighboring points by Brioschi's formula.")
+    lab.pictured("pick", "J on the surface of figure 3; parabolic curves are black")
+    lab.say("κ does not use H and J: it is computed from the metric at 49 neighboring points by Brioschi's formula.")
 
 
 @item("signature", "The affine signature",
@@ -106,10 +106,10 @@ def signature(lab):
     for name, symbol in symbols.items():
         unit = median_size(surface[name])
         errors = [abs(a - b) / max(abs(b), unit) for a, b in zip(after[name], surface[name])]
-        lab.check(f"greatest relative change of {symbol}", greatest(errors), "<=",
+        lab.check(f"maximum relative change of {symbol}", greatest(errors), "<=",
                   1e-6 if name.endswith("_gradient") else 1e-10)
         rows.append([symbol, unit, greatest(errors), median(errors)])
-    lab.table(["invariant", "median", "greatest change under a map of determinant 1", "median change"], rows)
+    lab.table(["invariant", "median", "maximum change under a map of determinant 1", "median change"], rows)
     step = max(1, len(surface) // 2500)
     for x, y in (("affine_mean_curvature", "affine_mean_curvature_gradient"),
                  ("affine_mean_curvature", "pick_invariant")):
@@ -117,10 +117,11 @@ def signature(lab):
             [Series("the surface", list(zip(surface[x], surface[y]))[::step], kind="dots"),
              Series("its image", list(zip(after[x], after[y]))[step // 2 :: step], kind="dots")],
             symbols[x], symbols[y]),
-            f"Two coordinates of the signature, H and {symbols[y]}, at other points of the surface and of its image")
+            f"Two coordinates of the signature, H and {symbols[y]}, at different points of the surface and of its "
+            f"image")
     lab.picture("convex", "|grad H| in the affine metric", "--color", "affine_mean_curvature_gradient")
     lab.say("K, H, J and the norms of their gradients in the Berwald-Blaschke metric, the attributes `signature`. The "
-            "gradients are derivatives of order 5: extrapolated differences of invariants of neighboring level sets.")
+            "gradients are derivatives of order 5, computed as extrapolated finite differences of invariants.")
 
 
 @item("parabolic", "Parabolic curves",
@@ -136,7 +137,7 @@ def parabolic(lab):
 
     _, circles = mesh_with_curves("torus", TORUS, TORUS_BOX, lab.choose(64, 24), "gaussian_curvature")
     misses = [max(abs(math.hypot(x, y) - 0.5), abs(abs(z) - 0.2)) for x, y, z in circles]
-    lab.check("torus: greatest distance of a point from the circles √(x²+y²) = R, z = ±r", greatest(misses), "<=",
+    lab.check("torus: maximum distance of a point from the circles √(x²+y²) = R, z = ±r", greatest(misses), "<=",
               1e-12)
     metaballs = "exp(-3*((x-0.6)^2+y^2+z^2)) + exp(-3*((x+0.6)^2+(y-0.2)^2+z^2)) - 0.5"
     for name, formula, box in (("blobby", BLOBBY, BLOBBY_BOX),
@@ -146,14 +147,14 @@ def parabolic(lab):
         typical = median_size(surface["gaussian_curvature"])
         words = ["--function", formula, "--attributes", "gaussian_curvature"]
         at = lab.evaluate_many(name + "-curve", on_curve, *words)["gaussian_curvature"]
-        lab.check(f"{name}: greatest |Kₑ| on the curves, over its median on the surface",
+        lab.check(f"{name}: maximum |Kₑ| on the curves, relative to its median on the surface",
                   greatest(map(abs, at)) / typical, "<=", 1e-11)
         moved = lab.evaluate_many(name + "-image", image_of_points(SHEAR, on_curve), *words, "--transform",
                                   *words_of(SHEAR))["gaussian_curvature"]
-        lab.check(f"{name}: the same for their images on the image of the surface",
+        lab.check(f"{name}: the same for the images of the curves",
                   greatest(map(abs, moved)) / typical, "<=", 1e-10)
     lab.pictured("torus", "Kₑ on the torus and its parabolic circles")
-    lab.pictured("blobby", "H on the surface of figure 3: it grows without bound towards the black curves")
-    lab.pictured("metaballs", "H on two balls that melt: the saddle between them is bounded by two curves")
-    lab.say("The curves are polylines whose points lie on f = 0 and Kₑ = 0 up to rounding, the option "
+    lab.pictured("blobby", "H on the surface of figure 3; it tends to infinity at the black curves")
+    lab.pictured("metaballs", "H on two merging balls; the saddle between them is bounded by two curves")
+    lab.say("The curves are polylines with points on f = 0 and Kₑ = 0 up to rounding, computed with the option "
             "--parabolic-curves.")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every error found in the printed paper, with numbers: the printed formula fails, the corrected one holds."""
+"""The errors found in the printed paper: tests show that each printed formula fails and that its correction holds."""
 
 import math
 import random
@@ -11,7 +11,7 @@ from .sampling import MATRIX, printed_spline
 
 
 def monomials(degrees, letters):
-    """The words over the letters of these lengths, letters in order: xx, xy, ..."""
+    """Words of these lengths with letters in alphabetic order: xx, xy, ..."""
     words = [""]
     result = []
     for degree in range(1, max(degrees) + 1):
@@ -37,7 +37,7 @@ def at_origin(lab, formula):
 
 
 def graph_normal(g, second_term):
-    """ξ₁ of section 2(d); its second term has `second_term` in place of the third derivative."""
+    """ξ₁ of section 2(d), with the derivative `second_term` in its second term."""
     d = g["xx"] * g["yy"] - g["xy"] ** 2
     return abs(d) ** 0.25 / (4 * d * d) * (
         g["xx"] * g["xy"] * g["yyy"] - g["xx"] * g["yy"] * g[second_term] - g["yy"] ** 2 * g["xxx"]
@@ -72,7 +72,7 @@ def b11(f):
 
 
 def b21(f, fourth="xyy", fifth="xxxy"):
-    """The fourth term has `fourth`, the fifth term `fifth`."""
+    """b₂₁ of section 3(b), with the derivatives `fourth` in its fourth term and `fifth` in its fifth term."""
     xx, yy = f["xx"], f["yy"]
     return (15 * xx * yy * f["xxy"] * f["xyy"] - xx * yy * f["xxx"] * f["yyy"] - 4 * xx**2 * yy * f["xyyy"]
             - 24 * xx**2 * yy * f["yz"] * f[fourth] - 4 * xx * yy**2 * f[fifth] + 24 * xx**2 * yy**2 * f["xyz"]
@@ -81,13 +81,13 @@ def b21(f, fourth="xyy", fifth="xxxy"):
 
 
 def exchanged(f):
-    """With x and y exchanged."""
+    """The derivatives with x and y exchanged."""
     exchange = str.maketrans("xy", "yx")
     return {word: f["".join(sorted(word.translate(exchange)))] for word in f}
 
 
 def curvatures(f, b11_of, b21_of):
-    """K and H from b11 and b21, and b22 and b12 by exchange."""
+    """K and H from b11 and b21, and from b22 and b12, which follow by exchanging x and y."""
     g = exchanged(f)
     return b11_of(f) * b11_of(g) - b21_of(f) * b21_of(g), (b11_of(f) + b11_of(g)) / 2
 
@@ -95,10 +95,10 @@ def curvatures(f, b11_of, b21_of):
 @item("errata", "The errors of the printed paper",
       "The formulas of sections 2, 3 and 4, the table of section 2(f), figures 8 and 11, as printed.")
 def errata(lab):
-    errors = {}  # by place: those of the printed formula, and those of the corrected one
+    errors = {}  # for each place: errors of the printed formula, and errors of the corrected one
 
     def compare(where, printed, corrected, right):
-        """Relative to the right value or to 1."""
+        """Adds errors relative to the correct value, or to 1 if this is larger."""
         for value, found in zip((printed, corrected), errors.setdefault(where, ([], []))):
             found.append(abs(value - right) / max(1.0, abs(right)))
 
@@ -106,19 +106,20 @@ def errata(lab):
         source = random.Random(seed)
         g = {word: source.uniform(-1, 1) for word in monomials((1, 2, 3, 4), "xy")}
         ours = at_origin(lab, f"z - ({polynomial(g)})")
-        compare("2(d), ξ₁: second term with g_xxy for g_xyy", graph_normal(g, "xxy"), graph_normal(g, "xyy"),
+        compare("2(d), ξ₁: second term with g_xxy instead of g_xyy", graph_normal(g, "xxy"), graph_normal(g, "xyy"),
                 ours["xi"][0])
 
         f = {word: source.uniform(-1, 1) for word in monomials((2, 3, 4), "xyz")}
         f.update(xy=0.0, xx=source.uniform(0.5, 1), yy=source.uniform(0.5, 1))
         ours = at_origin(lab, f"z + {polynomial(f)}")
-        compare("3(b), ξ₂: f_xyy f_xxx f_yy for f_yy f_xx f_xxy", reduced_normal(f, True), reduced_normal(f, False),
-                ours["xi"][1])
+        compare("3(b), ξ₂: f_xyy f_xxx f_yy instead of f_yy f_xx f_xxy", reduced_normal(f, True),
+                reduced_normal(f, False), ours["xi"][1])
         right = curvatures(f, b11, b21)
         for i, name in enumerate("KH"):
-            compare(f"3(b), b₁₁: {name} with the printed one", curvatures(f, b11_printed, b21)[i], right[i], ours[name])
-        for where, wrong in (("fourth term with f_xxy for f_xyy", lambda h: b21(h, fourth="xxy")),
-                             ("fifth term with f_xxx for f_xxxy", lambda h: b21(h, fifth="xxx"))):
+            compare(f"3(b), b₁₁: {name} from the printed formula", curvatures(f, b11_printed, b21)[i], right[i],
+                    ours[name])
+        for where, wrong in (("fourth term with f_xxy instead of f_xyy", lambda h: b21(h, fourth="xxy")),
+                             ("fifth term with f_xxx instead of f_xxxy", lambda h: b21(h, fifth="xxx"))):
             compare(f"3(b), b₂₁: {where}", curvatures(f, b11, wrong)[0], right[0], ours["K"])
 
     r = 1.7
@@ -126,26 +127,27 @@ def errata(lab):
     sphere.update(xx=1 / r, yy=1 / r, zz=1 / r)
     H = lab.evaluate([(r, 0.0, 0.0)], "--function", "x^2 + y^2 + z^2")["affine_mean_curvature"][0] * r**1.5
     compare("3(b), b₁₁ of a sphere", b11_printed(sphere) * r**1.5, b11(sphere) * r**1.5, H)
-    compare("2(f), H of the sphere: -2 r^(-3/2) for -r^(-3/2)", -2.0, -1.0, H)
+    compare("2(f), H of the sphere: -2 r^(-3/2) instead of -r^(-3/2)", -2.0, -1.0, H)
     image = lab.evaluate([(0.9, 0.0, 1.1)], "--function", "x^2 + y^2 + z^2", "--transform", *words_of(MATRIX))
-    compare("figure 8: K is kept by a matrix of determinant -0.9", 1.0, 1 / abs(determinant(MATRIX)),
+    compare("figure 8: K invariant under a matrix of determinant -0.9", 1.0, 1 / abs(determinant(MATRIX)),
             image["affine_gaussian_curvature"][0])
     ts = [-0.5, -1.5, -2.5]
     for t, basis in zip(ts, lab.estimates("splines", numbers=ts)["degree_5"]):
-        compare("4(a), σ₁: t for |t|, at t < 0", printed_spline(t, is_literal=True), printed_spline(t), 2 * basis)
+        compare("4(a), σ₁: t instead of |t|, for t < 0", printed_spline(t, is_literal=True), printed_spline(t),
+                2 * basis)
 
-    circle = [2 * math.pi * (k + 0.5) / 49 for k in range(49)]  # none with Kₑ = 0 on a torus
+    circle = [2 * math.pi * (k + 0.5) / 49 for k in range(49)]  # none of them has Kₑ = 0 on a torus
     flat = {}
     for formula, points in (
         ("z^2 - (sqrt(x^2+y^2) - 0.5)^2", [(0.8 * math.cos(t), 0.8 * math.sin(t), 0.3) for t in circle]),
         ("z^2 + (sqrt(x^2+y^2) - 0.5)^2", [(0.5 + 0.2 * math.cos(t), 0.0, 0.2 * math.sin(t)) for t in circle])):
         at = lab.evaluate(points, "--function", formula, "--attributes", "gaussian_curvature")["gaussian_curvature"]
         flat[formula] = sum(not abs(k) > 1e-12 for k in at) / len(at)
-    compare("figure 11: share of points where Kₑ = 0, as on two cones", *flat.values(), 0.0)
+    compare("figure 11: fraction of points with Kₑ = 0, as on two cones", *flat.values(), 0.0)
 
     rows = [[where, min(printed), greatest(corrected)] for where, (printed, corrected) in errors.items()]
-    lab.check("least error of a printed formula", min(row[1] for row in rows), ">=", 1e-4)
-    lab.check("greatest error of a corrected one", greatest(row[2] for row in rows), "<=", 1e-12)
-    lab.table(["where", "printed: least error", "corrected: greatest error"], rows)
-    lab.say("At functions with random derivatives, compared with the program, whose formulas are other ones "
-            "(doc/errata.md has the corrections).")
+    lab.check("minimum error of the printed formulas", min(row[1] for row in rows), ">=", 1e-4)
+    lab.check("maximum error of the corrected formulas", greatest(row[2] for row in rows), "<=", 1e-12)
+    lab.table(["place", "printed: minimum error", "corrected: maximum error"], rows)
+    lab.say("The formulas are evaluated for functions with random derivatives, and compared with the program, which "
+            "uses different formulas. doc/errata.md lists the corrections.")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The paper's ways from derivatives to the affine structure against ours: figures 5, 9, 11 and table 1."""
+"""The paper's methods to compute the affine structure from derivatives, and ours: figures 5, 9, 11 and table 1."""
 
 import math
 
@@ -31,21 +31,22 @@ def fig5(lab):
     errors = {}
     for way in [*WAYS, "printed"]:
         errors[way] = [math.dist(a, b) / math.hypot(*b) for a, b in zip(vectors(way), exact)]
-        errors[way] = [min(1.0, e) if e == e else 1.0 for e in errors[way]]  # NaN where f_z = 0
+        errors[way] = [min(1.0, e) if e == e else 1.0 for e in errors[way]]  # NaN if f_z = 0
         columns = {name: surface[name] for name in ("x", "y", "z", "nx", "ny", "nz")}
         columns["log10_of_relative_error"] = [math.log10(max(e, 1e-17)) for e in errors[way]]
         write_ply(lab.folder / (way + ".ply"), columns, surface.triangles)
     for way in ("direct_z", "direct", "printed", "transformation", "compact"):
-        lab.picture(way, f"{LABELS[way]}: greatest error {number(max(errors[way]))}", "--color",
+        lab.picture(way, f"{LABELS[way]}: maximum error {number(max(errors[way]))}", "--color",
                     "log10_of_relative_error", "--range", -17, -9)
-    lab.check("greatest relative error of ξ, against the paper's best way", max(errors["compact"]), "<=",
+    lab.check("maximum relative error of ξ, compared with the paper's best method", max(errors["compact"]), "<=",
               max(errors["transformation"]), max(errors["transformation"]))
-    lab.table(["way", "greatest error", "99 % of the vertices", "median"],
+    lab.table(["method", "maximum error", "error for 99 % of the vertices", "median error"],
               [[LABELS[way], max(e), quantile(e, 0.99), median(e)] for way, e in errors.items()])
-    lab.say("An ellipsoid of axes 3, 1, 0.3, with exact derivatives of order 4, against numbers of 64 bits; an error "
-            "of 1 stands for no normal. In double precision and with its misprint corrected the direct method is "
-            "accurate where the axis is chosen. With ξ₁ as printed it is wrong nearly everywhere, and its error jumps "
-            "where the axis changes, which would explain the middle of the figure.")
+    lab.say("The surface is an ellipsoid with semi-axes 3, 1, 0.3, with exact derivatives of order 4. Errors are "
+            "relative to results in long double; an error of 1 means that there is no normal. In double precision and "
+            "with its misprint corrected, the direct method is accurate with the best axis. With ξ₁ as printed it is "
+            "wrong nearly everywhere, and its error jumps where the axis changes, which could explain the middle of "
+            "the figure.")
 
 
 @item("table1", "Operation counts",
@@ -54,9 +55,10 @@ def fig5(lab):
 def table1(lab):
     count = lab.estimates("operations")
     formulas = count["transformation"] - count["matrices"] - count["mapping"]
-    lab.check("operations from derivatives to ν, ξ, K, H, with J", count["compact"], "<=", 340, count["transformation"])
-    lab.check("times fewer than the 9,867 that the paper counts", 9867 / count["compact"], ">=", 29)
-    lab.check("operations that map the derivatives: we count as the paper does", count["mapping"], "==", 7335,
+    lab.check("operations to compute ν, ξ, K, H and J from derivatives", count["compact"], "<=", 340,
+              count["transformation"])
+    lab.check("ratio to the 9,867 operations of the paper", 9867 / count["compact"], ">=", 29)
+    lab.check("operations that map the derivatives, counted as in the paper", count["mapping"], "==", 7335,
               count["mapping"])
     lab.table(["", "matrices", "mapping", "formulas", "total", "direct"], [
         ["printed", "749", "7,335", "1,783", "9,867", "23,690"],
@@ -64,8 +66,8 @@ def table1(lab):
                                                        count["transformation"], count["direct"]))],
         ["pivot and shear, with J (ours)", "–", "–", "–", str(count["compact"]), "–"],
     ])
-    lab.say("Counted by running each method on a number that counts: additions, multiplications, divisions and "
-            "functions, one each.")
+    lab.say("Each method is run with a number type that counts additions, multiplications, divisions and functions, "
+            "one each.")
 
 
 @item("fig9", "The sine surface: false discontinuities of H",
@@ -82,7 +84,8 @@ def fig9(lab):
     edges = [(a, b) for a, b in edges if regular[a] and regular[b] and (gaussian[a] < 0) == (gaussian[b] < 0)]
 
     def false_jumps(values):
-        """Edges that cross no parabolic curve, along which the change is wrong by a tenth of the numbers."""
+        """The number of edges that do not cross a parabolic curve, and along which the change of H is wrong by at least
+        a tenth of its values."""
         return sum(not abs((values[a] - values[b]) - (exact[a] - exact[b])) <= 0.1 * (abs(exact[a]) + abs(exact[b]))
                    for a, b in edges)
 
@@ -96,13 +99,13 @@ def fig9(lab):
     for way in ("direct", "transformation", "compact"):
         lab.mesh(way, *words, "--estimator", way, "--parabolic-curves", way + ".obj", "--png", way + ".png", *scale,
                  *lab.size)
-        lab.pictured(way, f"H, {LABELS[way]}: {counts[way]:,} false jumps. Black: the parabolic curves")
+        lab.pictured(way, f"H, {LABELS[way]}: {counts[way]:,} false jumps. Parabolic curves are black")
     lab.check("edges with a false jump of H", counts["compact"], "==", 0, counts["printed"])
-    lab.table(["way", "edges with a false jump", "of"], [[LABELS[way], n, len(edges)] for way, n in counts.items()])
-    lab.say("The paper's method is here the direct one with ξ₁ as printed, whose error changes where the axis does. "
-            "With the misprint corrected and the same exact derivatives direct, transformation and compact method are "
-            "the same function: they differ by rounding alone, and none of them has a false discontinuity in double "
-            "precision.")
+    lab.table(["method", "edges with a false jump", "edges"],
+              [[LABELS[way], n, len(edges)] for way, n in counts.items()])
+    lab.say("The paper's method here is the direct one with ξ₁ as printed, whose error jumps where the axis changes. "
+            "With the misprint corrected and the same exact derivatives, the direct, transformation and compact "
+            "methods differ only by rounding, and none of them has a false discontinuity in double precision.")
 
 
 @item("fig11", "The torus before and after an affine map",
@@ -128,7 +131,7 @@ def fig11(lab):
         found[way] = invariance.compared(*samples, symbols=("K", "Kₑ") if i == 0 else ("K",))
     ours, paper = (found[way] for way in ("compact (ours)", "the paper's grid derivatives, transformation"))
     for i, kind in enumerate(invariance.KINDS):
-        lab.check(f"{kind} distance of K before and after, over that of Kₑ", ours["K"][i] / ours["Kₑ"][i], "<=",
+        lab.check(f"{kind} distance of K before and after, relative to that of Kₑ", ours["K"][i] / ours["Kₑ"][i], "<=",
                   lab.choose(0.01, 0.1), paper["K"][i] / ours["Kₑ"][i])
     lab.table(["", invariance.KINDS[0], f"{invariance.KINDS[1]}, of x / (m + |x|), m the median of |x|"],
               [*([f"K, {way}", *each["K"][:2]] for way, each in found.items()), ["Euclidean Kₑ", *ours["Kₑ"][:2]]])
@@ -140,7 +143,8 @@ def fig11(lab):
     for when, caption in (("before", "K on the torus"), ("after", "K on its image")):
         lab.mesh("pictured", *sources[when], *attributes, "--parabolic-curves", "curves.obj", "--png", when + ".png",
                  "--color", "affine_gaussian_curvature", "--range", -bound, bound, *lab.size)
-        lab.pictured(when, caption + "; black: the parabolic curves")
-    lab.say("The image is sampled afresh, as its own formula on a grid parallel to the axes. The torus of the figure, "
-            "printed as z² - (√(x²+y²) - 0.5)² = 0, is a pair of cones; this one has the radius 0.2. With the misprint "
-            "of ξ₁ corrected the direct method preserves the distribution as well as the transformation method.")
+        lab.pictured(when, caption + "; parabolic curves are black")
+    lab.say("The image is meshed independently, from its own formula on a grid parallel to the axes. The formula of "
+            "the figure, z² - (√(x²+y²) - 0.5)² = 0, describes two cones; this torus has the minor radius 0.2. With "
+            "the misprint of ξ₁ corrected, the direct method preserves the distribution as well as the transformation "
+            "method.")

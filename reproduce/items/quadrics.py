@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surfaces of section 2(f), whose affine structure is known: figures 2 and 4, the table, and how quadrics are told
-from all other surfaces."""
+"""The surfaces of section 2(f), whose affine structure is known: figures 2 and 4, the table, and a criterion for
+quadrics."""
 
 import math
 import random
@@ -35,8 +35,8 @@ def fig2(lab):
 
     ours = worst(lab.mesh("ellipsoid", *words))
     paper = worst(lab.mesh("transformation", *words, "--estimator", "transformation"))
-    lab.check("greatest distance of the line of an affine normal from the center", ours[0], "<=", 1e-12, paper[0])
-    lab.check("greatest sine of the angle between co-normal and Euclidean normal", ours[1], "<=", 1e-12, paper[1])
+    lab.check("maximum distance between the center and the line of an affine normal", ours[0], "<=", 1e-12, paper[0])
+    lab.check("maximum sine of the angle between co-normal and Euclidean normal", ours[1], "<=", 1e-12, paper[1])
     lab.picture("conormals", "Co-normals", "--color", "plain", "--arrows", "conormal", of="ellipsoid")
     lab.picture("normals", "Affine normals: the arrows lie on lines through the center", "--color", "plain",
                 "--arrows", "affine_normal", of="ellipsoid")
@@ -55,8 +55,8 @@ def fig4(lab):
 
         paper = worst(lab.mesh(name + "-transformation", *words, "--estimator", "transformation"))
         ours = worst(lab.mesh(name, *words))
-        lab.check(f"{name}: greatest deviation of ξ from (0, 0, 1)", ours[0], "<=", 1e-14, paper[0])
-        lab.check(f"{name}: greatest |K| and |H|", ours[1], "<=", 1e-14, paper[1])
+        lab.check(f"{name}: maximum deviation of ξ from (0, 0, 1)", ours[0], "<=", 1e-14, paper[0])
+        lab.check(f"{name}: maximum |K| and |H|", ours[1], "<=", 1e-14, paper[1])
         lab.picture(name, f"The {name} paraboloid with its affine normals", "--color", "plain",
                     "--arrows", "affine_normal")
 
@@ -68,8 +68,8 @@ def unit_sphere_points(count, seed):
 
 
 @item("table2f", "The fundamental examples of section 2(f)",
-      "A table of the co-normal, the affine normal and the affine curvatures of the paraboloids and of the sphere; "
-      "for the sphere it says H = -2 r^(-3/2).")
+      "A table of the co-normal, the affine normal and the affine curvatures of the paraboloids and of the sphere, "
+      "with H = -2 r^(-3/2) for the sphere.")
 def table2f(lab):
     r, source = 1.7, random.Random(1)
     plane = [(source.uniform(-1, 1), source.uniform(-1, 1)) for _ in range(200)]
@@ -116,12 +116,12 @@ def table2f(lab):
             errors.append(greatest(length(minus(a, b)) / max(1.0, length(b)) for a, b in pairs))
         worst = max(worst, *errors)
         rows.append([expression, *errors])
-    lab.check("greatest error of any cell, H of the sphere corrected", worst, "<=", 1e-12)
+    lab.check("maximum error of all cells, with H of the sphere corrected", worst, "<=", 1e-12)
     printed = min(abs(h + 2 * r**-1.5) for h in at["affine_mean_curvature"]) / r**-1.5
-    lab.check("H of the sphere as printed, -2 r^(-3/2): its error relative to r^(-3/2)", printed, ">=", 0.99)
+    lab.check("error of the printed H of the sphere, -2 r^(-3/2), relative to r^(-3/2)", printed, ">=", 0.99)
     lab.table(["surface", "Nₑ", "Kₑ", "d", "ν", "ξ", "K", "H"], rows)
-    lab.say("The errors of all cells at random points. With H = tr B / 2, as section 2(e) defines it, the sphere has "
-            "H = -r^(-3/2); the printed -2 r^(-3/2) is the trace.")
+    lab.say("The table shows the errors of all cells at random points. With H = tr B / 2 as defined in section 2(e), "
+            "the sphere has H = -r^(-3/2); the printed -2 r^(-3/2) is the trace.")
 
 
 # Functions that are not polynomials, so that the third derivatives of f do not vanish on quadrics.
@@ -141,7 +141,7 @@ OTHERS = {
 }
 
 
-@item("quadric", "Quadrics, told by the apolar cubic form",
+@item("quadric", "Quadrics, recognized by the apolar cubic form",
       "“We plan to extend this work by completing the affine estimators with the Pick invariant.” J = 0 holds on "
       "every quadric, but also on other surfaces.")
 def quadric(lab):
@@ -155,14 +155,14 @@ def quadric(lab):
         pick = greatest(abs(surface["pick_invariant"][i]) for i in regular)
         defects[name] = greatest(defect), median(defect)
         rows.append([name, "yes" if name in QUADRICS else "no", *defects[name], pick])
-    lab.check("greatest defect on six quadrics", max(defects[n][0] for n in QUADRICS), "<=", 1e-12)
-    lab.check("least median of the defect on four other surfaces", min(defects[n][1] for n in OTHERS), ">=", 1e-2)
+    lab.check("maximum defect of six quadrics", max(defects[n][0] for n in QUADRICS), "<=", 1e-12)
+    lab.check("minimum of the median defects of four other surfaces", min(defects[n][1] for n in OTHERS), ">=", 1e-2)
     cayley = next(row[4] for row in rows if row[0] == "Cayley's ruled cubic")
-    lab.check("greatest |J| on Cayley's surface, which is no quadric: J alone does not tell", cayley, "<=", 1e-12)
-    lab.table(["surface", "quadric?", "greatest defect", "median defect", "greatest |J|"], rows)
-    lab.say("At the regular vertices. The defect is |T| / |II|², the apolar cubic form over the square of the second "
-            "fundamental form, without a unit. By the theorem of Maschke, Pick and Berwald T vanishes exactly on "
-            "quadrics. It is the attribute quadric_defect.")
-    lab.picture("Cayleys-ruled-cubic", "Cayley's surface z = x y - x³/3: J = 0 everywhere, and not a quadric",
+    lab.check("maximum |J| of Cayley's surface: J = 0 does not imply a quadric", cayley, "<=", 1e-12)
+    lab.table(["surface", "quadric?", "maximum defect", "median defect", "maximum |J|"], rows)
+    lab.say("The values are those at regular vertices. The attribute quadric_defect is |T| / |II|², the dimensionless "
+            "ratio of the apolar cubic form to the square of the second fundamental form. By the theorem of Maschke, "
+            "Pick and Berwald, T vanishes exactly on quadrics.")
+    lab.picture("Cayleys-ruled-cubic", "Cayley's surface z = x y - x³/3 has J = 0 everywhere, but is not a quadric",
                 "--color", "quadric_defect")
     lab.picture("torus", "The torus: its defect is largest near the parabolic circles", "--color", "quadric_defect")

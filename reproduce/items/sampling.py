@@ -9,14 +9,14 @@ from ..plot import COLORS, Series, plot
 from ..program import Surface
 from ..statistics import greatest, median, slope
 
-MATRIX = [[0.9, 0.0, 0.9], [0.0, 2.0, 0.0], [1.1, 0.0, 0.6]]  # of figure 8; its determinant is -0.9
+MATRIX = [[0.9, 0.0, 0.9], [0.0, 2.0, 0.0], [1.1, 0.0, 0.6]]  # figure 8; the determinant is -0.9
 PAPER = ["--derivatives", "spline", "--spline-scheme", "paper", "--vertices", "linear"]
 OURS = ["--derivatives", "spline"]
 CURVATURES = ["--attributes", "gaussian_curvature,affine_gaussian_curvature,affine_mean_curvature"]
 
 
 def printed_spline(t, is_literal=False):
-    """σ₁ of section 4(a), with |t| in its polynomials, or literally."""
+    """σ₁ of section 4(a), with |t| in its polynomials, or with t as printed."""
     size = abs(t)
     t = t if is_literal else size
     terms = [(3 - t) ** 5, -6 * (2 - t) ** 5, 15 * (1 - t) ** 5]
@@ -29,11 +29,11 @@ def fig7(lab):
     ts = [k / 100 for k in range(-330, 331)]
     ours = lab.estimates("splines", numbers=ts)
     printed = [printed_spline(t) for t in ts]
-    lab.check("greatest difference of σ₁ / 2 from our B-spline of degree 5",
+    lab.check("maximum difference between σ₁ / 2 and our B-spline of degree 5",
               greatest(abs(a / 2 - b) for a, b in zip(printed, ours["degree_5"])), "<=", 1e-14)
     integers = ours["degree_5"][30::100]
-    lab.check("sum over the integers, to which the constant c normalizes it", abs(sum(integers) - 1), "<=", 1e-15,
-              sum(printed[30::100]))
+    lab.check("deviation from 1 of the sum over the integers, which the constant c normalizes",
+              abs(sum(integers) - 1), "<=", 1e-15, sum(printed[30::100]))
     box, n = [-1.13, 1.15, -1.15, 1.13, -1.14, 1.15], lab.choose(64, 24)
     formula = ["--function", "x^4 + y^4 + z^4 - 1", "--box", *box]
     points = lab.mesh("quartic", *formula, "--resolution", 16, "--attributes", "none").points
@@ -43,16 +43,16 @@ def fig7(lab):
         words = [*variant[:4], "--resolution", n, "--attributes", "mean_curvature"]
         sampled = lab.evaluate(points, *formula, *words)["mean_curvature"]
         worst[who] = greatest(abs(h - h0) for h, h0 in zip(sampled, exact))
-    lab.check(f"greatest error of Hₑ on x⁴ + y⁴ + z⁴ = 1, N = {n}", worst["ours"], "<=", 1e-6, worst["paper"])
+    lab.check(f"maximum error of Hₑ on x⁴ + y⁴ + z⁴ = 1, N = {n}", worst["ours"], "<=", 1e-6, worst["paper"])
     lab.plot("spline", plot([Series("σ₁ as printed", list(zip(ts, printed))),
                              Series("B-spline of degree 5: σ₁ / 2", list(zip(ts, ours["degree_5"]))),
                              Series("B-spline of degree 7, ours", list(zip(ts, ours["degree_7"])), dashed=True)],
                             "t, in spacings of the grid", "weight of a sample"),
              "The spline of figure 7 and the one used here")
-    lab.say("With |t| for its t, as it has to be read, σ₁ is twice the B-spline of degree 5: its values at the "
-            "integers sum to 2, which the constant c makes up for. Convolution with it adds a quarter of the second "
-            "derivatives times the square of the spacing: order 2. Here the samples pass a local filter first, which "
-            "makes the order that of the degree.")
+    lab.say("With |t| instead of t, σ₁ is twice the B-spline of degree 5: its values at the integers sum to 2, which "
+            "the constant c corrects. Convolution with it adds a quarter of the second derivatives times the square of "
+            "the spacing, an error of order 2. We apply a local filter to the samples first, which raises the order to "
+            "that of the degree.")
 
 
 def constants_of_sphere(radius, matrix=None):
@@ -81,25 +81,25 @@ def fig8(lab):
         for name, exact, column in (("K", K, "affine_gaussian_curvature"), ("H", H, "affine_mean_curvature")):
             half = 1.1 * worst["paper"][name] * abs(exact)
             for who, label in (("paper", "the paper's variant"), ("ours", "ours")):
-                lab.picture(f"{who}-{when}-{name}", f"{name} {when} the map, {label}: deviates by up to "
+                lab.picture(f"{who}-{when}-{name}", f"{name} {when} the map, {label}: maximum deviation "
                             f"{100 * worst[who][name]:.2g} %", "--color", column, "--range", exact - half, exact + half,
                             of=f"{who}-{when}")
         for name in ("K", "H"):
-            lab.check(f"{when}: greatest relative deviation of {name}", worst["ours"][name], "<=", 1e-8,
+            lab.check(f"{when}: maximum relative deviation of {name}", worst["ours"][name], "<=", 1e-8,
                       worst["paper"][name])
-    lab.say("The matrix has determinant -0.9: it is not equi-affine, and the exact values behind the colors take "
-            "that into account, K = 1/0.9 and H = -1/√0.9 after it. A polynomial of degree 2 is in the space of the "
-            "spline that we use; figure 10 has functions that are not.")
+    lab.say("The determinant of the matrix is -0.9, so the map is not equi-affine: the exact values after it are "
+            "K = 1/0.9 and H = -1/√0.9, as in the colors. Our spline reproduces polynomials of degree 2; figure 10 has "
+            "other functions.")
 
 
 def some_of(surface):
-    """At most 20,000 of its vertices, evenly: enough for a median."""
+    """At most 20,000 evenly chosen vertices, which are enough for a median."""
     step = 1 + len(surface) // 20_000
     return Surface({name: column[::step] for name, column in surface.columns.items()})
 
 
 def median_errors(surface, exact):
-    """Of K and H, relative to |K| + H² and its root, at regular vertices away from parabolic curves."""
+    """Median errors of K and H relative to |K| + H² and its root, at regular vertices away from parabolic curves."""
     K_errors, H_errors = [], []
     columns = [surface[name] for name in ("affine_gaussian_curvature", "affine_mean_curvature", "gaussian_curvature",
                                           "status")]
@@ -130,11 +130,11 @@ def fig10(lab):
     for name, (expression, where) in surfaces.items():
         for who, variant in methods.items():
             if who == "paper, direct" and "sphere" not in name:
-                continue  # on the spheres it is seen to be the transformation method
+                continue  # on the spheres it has the same errors as the transformation method
             for n in sizes:
                 words = ["--function", expression, "--box", *where]
                 surface = some_of(lab.mesh("surface", *words, "--resolution", n, *variant, *CURVATURES))
-                if "sphere" in name:  # also where vertices are beside it
+                if "sphere" in name:  # also at vertices that are not exactly on it
                     exact = [constants_of_sphere(1, MATRIX if "map" in name else None)] * len(surface)
                 else:
                     at = lab.evaluate_many("exact", surface, *words, *CURVATURES)
@@ -142,7 +142,8 @@ def fig10(lab):
                 errors[name, who, n] = dict(zip("KH", median_errors(surface, exact)))
 
     def order(name, who, symbol):
-        """Over the sizes whose error is not that of rounding, which fourth derivatives multiply by 1 / h⁴."""
+        """The order of convergence over the sizes whose errors exceed rounding, which fourth derivatives amplify by
+        1 / h⁴."""
         where = surfaces[name][1]
         shortest = min(high - low for low, high in zip(where[::2], where[1::2]))
         values = [(n, errors[name, who, n][symbol]) for n in sizes]
@@ -162,7 +163,7 @@ def fig10(lab):
                  plot(series, "nodes per axis", "median relative error", log_x=True, log_y=True), name)
     finest, best = sizes[-1], "paper, transformation"
     for name in ("sphere", "sphere after the map"):
-        for symbol, bound in (("K", 4e-4), ("H", 7e-6)):  # what the paper says of N = 256
+        for symbol, bound in (("K", 4e-4), ("H", 7e-6)):  # the paper's errors for N = 256
             lab.check(f"{name}, N = {finest}: median relative error of {symbol}",
                       errors[name, "ours", finest][symbol], "<=", bound, errors[name, best, finest][symbol])
     for name in ("exp ellipsoid", "torus with a root"):
@@ -170,8 +171,8 @@ def fig10(lab):
             lab.check(f"{name}: order of convergence of {symbol}", order(name, "ours", symbol), ">=", 3.8,
                       order(name, best, symbol))
     printed = lab.estimates("sphere", points=[(0.6, 0.0, 0.8)])
-    lab.say("With the same derivatives direct and transformation method give the same numbers: what limits both is the "
-            "estimate of the derivatives. With ξ₁ as printed the direct method does not converge, as the paper says: "
-            f"with exact derivatives it gives K = {printed['printed_K'][0]:.3g} at (0.6, 0, 0.8), where K = 1. Our "
-            "error on the spheres is that of rounding, since polynomials of degree 2 are in the space of our spline. "
-            "The orders are slopes over the sizes whose error is above that of rounding, 10 ε / h⁴.")
+    lab.say("With the same derivatives, the direct and transformation methods give the same numbers; both are limited "
+            "by the estimates of the derivatives. With ξ₁ as printed, the direct method does not converge, as stated "
+            f"in the paper: with exact derivatives it gives K = {printed['printed_K'][0]:.3g} at (0.6, 0, 0.8), where "
+            "K = 1. Our errors on the spheres are due to rounding, since our spline reproduces polynomials of degree "
+            "2. The orders are slopes over the sizes whose errors exceed rounding, 10 ε / h⁴.")

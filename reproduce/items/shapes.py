@@ -22,9 +22,9 @@ def fig3(lab):
                            ("K", "--color", curvatures[0], "--range", -bounds[0], bounds[0]),
                            ("H", "--color", curvatures[1], "--range", -bounds[1], bounds[1])):
         lab.mesh(name, *words, "--parabolic-curves", "curves.obj", "--png", name + ".png", *options, *lab.size)
-    lab.pictured("normals", "The affine normal ξ; it grows without bound towards the black degenerate curves, where "
-                            "long arrows are cut to one length")
-    lab.pictured("K", "K: the sign changes where it passes through infinity, on the degenerate curve, and through zero")
+    lab.pictured("normals", "The affine normal ξ; it tends to infinity at the black degenerate curves, where long arrows "
+                            "are truncated")
+    lab.pictured("K", "K; it changes its sign through infinity at the degenerate curve, and through zero")
     lab.pictured("H", "H")
 
     after = lab.evaluate_many("after", image_of_points(SHEAR, surface), "--function", BLOBBY, "--transform",
@@ -35,11 +35,11 @@ def fig3(lab):
             (K, K1), (H, H1) = ((surface[column][i], after[column][i]) for column in curvatures)
             scale = abs(K) + H * H
             errors.append(max(abs(K1 - K) / scale, abs(H1 - H) / math.sqrt(scale)))
-    lab.check("99 % of the vertices: relative change of K and H under a map of determinant 1", quantile(errors, 0.99),
-              "<=", 1e-10)
+    lab.check("relative change of K and H under a map of determinant 1, for 99 % of the vertices",
+              quantile(errors, 0.99), "<=", 1e-10)
     on_curve = lab.evaluate(read_curve_points(lab.folder / "curves.obj"), "--function", BLOBBY,
                             "--attributes", "gaussian_curvature")["gaussian_curvature"]
-    lab.check("greatest |Kₑ| on the degenerate curve, over its median on the surface",
+    lab.check("maximum |Kₑ| on the degenerate curve, relative to its median on the surface",
               greatest(map(abs, on_curve)) / median_size(surface["gaussian_curvature"]), "<=", 1e-11)
 
 
@@ -59,14 +59,14 @@ def write_off(path, points, triangles):
 
 
 def cubic_voxels(points, nodes):
-    """The box of `--distance-to` with that many nodes along its longest side, and voxels that are cubes."""
+    """The resolution for cubic voxels in the box of `--distance-to`, with `nodes` nodes along its longest side."""
     lengths = [max(p[axis] for p in points) - min(p[axis] for p in points) for axis in range(3)]
     lengths = [length + 0.2 * max(lengths) for length in lengths]
     return [max(16, round(nodes * length / max(lengths))) for length in lengths]
 
 
 def sample_distance(lab, name, points, triangles, nodes):
-    """Samples the distance to a mesh, `name`.nrrd."""
+    """Samples the distance to a mesh in `name`.nrrd."""
     write_off(lab.folder / (name + ".off"), points, triangles)
     lab.program.run("sample", "--distance-to", name + ".off", "--resolution", *cubic_voxels(points, nodes),
                     "-o", name + ".nrrd")
@@ -77,14 +77,14 @@ ERRORS = "affine_gaussian_curvature_error,affine_mean_curvature_error"
 
 
 def trusted(samples):
-    """Where the estimated errors are less than half of K and of H."""
+    """Whether the estimated errors are less than half of K and of H at each point."""
     columns = (samples[name] for column in ("affine_gaussian_curvature", "affine_mean_curvature")
                for name in (column, f"{column}_error"))
     return [s == 0 and e < 0.5 * abs(K) and f < 0.5 * abs(H) for K, e, H, f, s in zip(*columns, samples["status"])]
 
 
 def field_samples(lab, name, words, method=()):
-    """The surface of a distance field or a fit, its curvatures, and where they can be trusted."""
+    """The surface of a distance field or a fit, its curvatures, and where they are trusted."""
     surface = lab.mesh(name, *words, *method, "--attributes", f"normal,gaussian_curvature,{invariance.CURVATURES}")
     samples = invariance.sampled(lab, name + "-samples", surface, *words, "--attributes",
                                  f"{invariance.CURVATURES},{ERRORS}")
@@ -92,9 +92,9 @@ def field_samples(lab, name, words, method=()):
 
 
 def compare_field_with_image(lab, name, smoothing, radius):
-    """The surface of `name`.nrrd and its image, where the error estimates can be trusted; and by the paper's method at
-    the same points. Marching Cubes would give the image the images of the vertices, since the grid of the volume goes
-    along; a Delaunay mesh has its own."""
+    """Compares the surface of `name`.nrrd with its image, where the curvatures are trusted, and the paper's method at
+    the same points. The image has a Delaunay mesh, since Marching Cubes on the mapped grid would return the images of
+    the vertices."""
     volume, map_words = ["--volume", name + ".nrrd"], ["--transform", *words_of(SHEAR)]
     words = [*volume, "--smoothing", smoothing]
     surface, before, is_used = field_samples(lab, name + "-before", words)
@@ -109,15 +109,16 @@ def compare_field_with_image(lab, name, smoothing, radius):
     invariance.plot_distributions(lab, title, found)
     invariance.tabulate(lab, title, found)
     shares = [invariance.used_share(*each) for each in zip((before, after), masks)]
-    lab.say(f"Samples smoothed over {smoothing} voxels. {100 * shares[0]:.0f} % of the area, {100 * shares[1]:.0f} % "
-            "of that of the image, have error estimates below half of K and of H, and are compared. The image is that "
-            "of the field, meshed afresh: what is measured is the estimator, whatever noise the field has. The paper's "
-            "method is measured at the same points, without smoothing, which it does not have.")
+    lab.say(f"The samples are smoothed with a scale of {smoothing} voxels. The comparison uses {100 * shares[0]:.0f} % "
+            f"of the area of the surface and {100 * shares[1]:.0f} % of that of the image, where the estimated errors "
+            "are below half of K and of H. The image is that of the field, meshed independently, so the result "
+            "measures the estimator and not the noise of the field. The paper's method, which does not smooth, is "
+            "measured at the same points.")
     return surface, before, is_used
 
 
 def draw(lab, name, captions, up):
-    """K, H and H_e of the surface `name`-before and of `name`-after, in the colors of the first."""
+    """Draws K, H and H_e of the surfaces `name`-before and `name`-after, with the color range of the first."""
     for column, symbol in (("affine_gaussian_curvature", "K"), ("affine_mean_curvature", "H"),
                            ("mean_curvature", "Hₑ")):
         for when, caption in captions.items():
@@ -131,13 +132,13 @@ def draw(lab, name, captions, up):
 def fig1(lab):
     if lab.bunny:
         points, triangles = read_off(lab.bunny)
-    elif lab.is_small:  # any mesh will do to see that everything runs
+    elif lab.is_small:  # a test only needs some mesh
         mesh = lab.mesh("mesh", "--function", BANANA, "--box", *BANANA_BOX, "--resolution", 32, "--attributes", "none")
         points, triangles = mesh.points, mesh.triangles
     else:
-        raise RuntimeError("the mesh of the bunny is not given: --bunny FILE, or scripts/reproduce, which fetches it")
+        raise RuntimeError("the mesh of the bunny is missing; give --bunny FILE, or run scripts/reproduce")
     nodes, scale = lab.choose((129, 0.18), (40, 0.5))
-    sample_distance(lab, "bunny", points, triangles, nodes)  # writes bunny.off, too
+    sample_distance(lab, "bunny", points, triangles, nodes)  # also writes bunny.off
     write_off(lab.folder / "moved.off", [image(SHEAR, p) for p in points], triangles)
     surface, before, is_used = field_samples(lab, "bunny-before", ["--fit", "bunny.off", "--scale", scale])
     image_surface, after, is_used_after = field_samples(lab, "bunny-after", ["--fit", "moved.off", "--scale", scale])
@@ -155,14 +156,14 @@ def fig1(lab):
     for when, words in (("before", []), ("after", map_words)):
         lab.mesh("paper-" + when, *volume, "--vertices", "linear", *words, "--up", "y", "--png", f"paper-{when}.png",
                  "--color", "affine_gaussian_curvature", "--range-of", "scan-before.ply", *lab.size)
-        lab.pictured("paper-" + when, f"K by the paper's method on the distance, {when} the map: it sees the facets of "
-                                      "the mesh")
+        lab.pictured("paper-" + when, f"K by the paper's method on the distance field, {when} the map; it shows the "
+                                      "facets of the mesh")
     shares = [invariance.used_share(*each) for each in zip((before, after), masks)]
-    lab.say(f"Polynomials of degree 4 are fitted to the vertices within {scale}, afresh for the image: its vertices are "
-            "those of the bunny after the map, and nothing else is known of it. A scan has detail at every scale, and "
-            f"curvatures are those at this one. {100 * shares[0]:.0f} % of the area, {100 * shares[1]:.0f} % of that of "
-            "the image, have errors of less than half of K and of H at that scale, and are compared. The paper's method "
-            "is measured at the same points, on a grid of the distance that goes along with the map.")
+    lab.say(f"Polynomials of degree 4 are fitted to the vertices within {scale}, independently for the image, whose "
+            "vertices are the images of those of the bunny. A scan has detail at every scale; the curvatures are those "
+            f"at this scale. The comparison uses {100 * shares[0]:.0f} % of the area of the bunny and "
+            f"{100 * shares[1]:.0f} % of that of the image, where the errors are less than half of K and of H. The "
+            "paper's method is measured at the same points, on a grid of the distance that is mapped with the bunny.")
 
 
 @item("fig12", "The banana and its images",
@@ -180,8 +181,8 @@ def fig12(lab):
                invariance.sampled(lab, "samples-after", after, *formula, image_of_formula))
     found = invariance.compared(*samples)
     invariance.require_invariance(lab, "banana, formula", found, lab.choose(0.01, 0.1))
-    lab.check("banana, formula: share of the area where all curvatures exist", min(map(invariance.used_share, samples)),
-              ">=", 0.99)
+    lab.check("banana, formula: fraction of the area where all curvatures exist",
+              min(map(invariance.used_share, samples)), ">=", 0.99)
     invariance.plot_distributions(lab, "banana, formula", found)
     invariance.tabulate(lab, "banana, formula", found)
     draw(lab, "formula", {"before": "the banana", "after": "its image"}, "z")

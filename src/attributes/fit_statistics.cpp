@@ -21,7 +21,7 @@ namespace {
 using Structure = Fitted_structure_3<double>;
 using Structures = std::span<const Structure>;
 
-/// The least, median and greatest of the numbers of structures that have one.
+/// The minimum, median, and maximum of a number over the structures that have it.
 template <class Get>
 std::array<double, 3> spread(Structures structures, Get get) {
   std::vector<double> numbers;
@@ -63,7 +63,7 @@ Vertex_attributes::Column Estimate_attribute::column(Structures structures) cons
 
 const std::vector<Estimate_attribute>& estimate_attributes() {
   static const std::vector<Estimate_attribute> attributes = [] {
-    constexpr std::size_t of_splines = 2; // the affine curvatures, of which there are all kinds
+    constexpr std::size_t of_splines = 2; // the affine curvatures, which have all kinds of errors
     std::vector<Estimate_attribute> result;
     const auto add = [&](Estimate_kind kind, const std::string& suffix, std::size_t count) {
       for (std::size_t n = 0; n < count; ++n)
@@ -122,7 +122,7 @@ std::string_view first_known(const Fit_statistics& fit) {
 }
 
 std::vector<Doubt_of_points> doubts_of(const Fit_statistics& fit, bool has_affine_curvatures) {
-  constexpr double least = 0.1; // of the points where K is unknown
+  constexpr double least = 0.1; // fraction of points where K is unknown
   std::vector<Doubt_of_points> doubts = {{Fit_doubt::WITHOUT_FIT, fit.without_fit}};
   double unknown = fit.without_fit;
   if (has_affine_curvatures) {

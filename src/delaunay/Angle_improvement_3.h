@@ -24,9 +24,9 @@
 
 namespace equiaffine::internal {
 
-/// Improves small angles. Refinement has to stop beside features, and leaves a few triangles with too small angles
-/// there. Their vertices are moved on the surface, as far as the other criteria hold, until all triangles around them
-/// have the angle.
+/// Improves small angles. Refinement must stop near features and leaves a few triangles with too small angles there.
+/// Their vertices are moved on the surface, subject to the other criteria, until all triangles around them have large
+/// enough angles.
 template <class Function>
 class Angle_improvement_3 {
   using Surface = Delaunay_surface_3<Any_function_3::Kernel>;
@@ -40,7 +40,7 @@ public:
       : function_(function), domain_(domain), criteria_(criteria), size_(size),
         least_cosine_(std::cos(criteria.angle * std::numbers::pi / 180)) {}
 
-  /// Vertices with `is_fixed` stay where they are. Takes one pass over the triangles if all of them are good.
+  /// Vertices with `is_fixed` are not moved. Takes one pass over the triangles if all of them are good.
   void operator()(Surface& surface, const std::vector<bool>& is_fixed) {
     constexpr int sweeps = 10;
     for (int n = 0; n < sweeps; ++n) {
@@ -64,7 +64,7 @@ private:
     return vertices;
   }
 
-  /// Lists the opposite edges of the triangles around every vertex.
+  /// Collects the opposite edges of the triangles around every vertex.
   void find_stars(const Surface& surface) {
     stars_.resize(surface.points.size());
     for (const Triangle& t : surface.triangles)
@@ -79,7 +79,7 @@ private:
   }
 
   /// The cosine of the smallest angle in the triangles around vertex v if it were at p; infinite if a triangle would
-  /// then face against the gradient of f.
+  /// face against the gradient of f.
   double largest_cosine(const Surface& surface, std::uint32_t v, const Point_3& p, const Vector_3& gradient) const {
     double largest = 0;
     for (const auto& [a, b] : stars_[v]) {
@@ -99,14 +99,14 @@ private:
     });
   }
 
-  /// A place for a vertex, and the cosine of the smallest angle around it there.
+  /// A position for a vertex, and the cosine of the smallest angle around it.
   struct Place {
     Point_3 point;
     double cosine;
   };
 
-  /// Moves a vertex step by step in the direction in which the smallest angle around it grows most. Steps get shorter
-  /// when none of them improves the angle.
+  /// Moves a vertex step by step in the direction in which the smallest angle around it grows most. Halves the step
+  /// if none improves the angle.
   void move(Surface& surface, std::uint32_t v) const {
     Point_3& p = surface.points[v];
     Vector_3 gradient = gradient_of<Vector_3>(first_order(function_, p));
@@ -126,8 +126,8 @@ private:
     }
   }
 
-  /// Returns the best place on the surface at about the distance `step` from a vertex, or nothing if none is clearly
-  /// better.
+  /// Returns the best position on the surface at about the distance `step` from a vertex, or nothing if none is
+  /// clearly better.
   std::optional<Place> best_place_around(const Surface& surface, std::uint32_t v, const Place& here,
                                          const Vector_3& gradient, double step) const {
     constexpr int directions = 8;

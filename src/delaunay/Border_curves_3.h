@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Traces the curves in which a surface meets the border of a clip domain, so that the mesh follows them.
+// Traces the curves in which a surface meets the border of a clip domain, so that the mesh can follow them.
 #ifndef EQUIAFFINE_SRC_DELAUNAY_BORDER_CURVES_3_H
 #define EQUIAFFINE_SRC_DELAUNAY_BORDER_CURVES_3_H
 
@@ -29,8 +29,8 @@
 
 namespace equiaffine::internal {
 
-/// The border of a clip domain: the faces of a box, or a sphere, onto which the faces of a cube are projected from the
-/// center of the sphere.
+/// The border of a clip domain: the faces of a box, or a sphere. On the sphere, faces are those of a cube, projected
+/// from the center.
 template <class Kernel>
 class Domain_border_3 {
   using Point_3 = typename Kernel::Point_3;
@@ -46,7 +46,7 @@ public:
   bool is_sphere() const { return domain_.is_ball(); }
   const CGAL::Bbox_3& box() const { return box_; }
 
-  /// The point of a face with parameters u and v, which go from 0 to 1 from side to side.
+  /// The point of a face with parameters u and v in [0, 1].
   Point_3 point(const Face& face, double u, double v) const {
     return is_sphere() ? point_of_sphere(face, u, v) : point_of_box(face, u, v);
   }
@@ -69,7 +69,7 @@ public:
     return g;
   }
 
-  /// p, moved into the plane of the nearer face normal to `axis`; on a sphere p itself.
+  /// p, moved into the plane of the nearer face normal to `axis`; p itself on a sphere.
   Point_3 snap(const Point_3& p, int axis) const {
     if (is_sphere()) return p;
     std::array<double, 3> x = {p.x(), p.y(), p.z()};
@@ -77,7 +77,7 @@ public:
     return Point_3(x[0], x[1], x[2]);
   }
 
-  /// Returns the axes other than `axis` along which p is outside of the box. There are none for a sphere.
+  /// Returns the axes other than `axis` along which p lies outside the box; none for a sphere.
   std::vector<int> axes_beyond(const Point_3& p, int axis) const {
     std::vector<int> axes;
     for (int b = 0; b < 3 && !is_sphere(); ++b)
@@ -117,9 +117,9 @@ private:
   const CGAL::Bbox_3 box_;
 };
 
-/// Follows a curve in which a surface meets the border of a clip domain, from a point of it by short steps along the
-/// tangent. On a box a curve belongs to a face, normal to an axis, and ends on its edges; the curves of both faces at
-/// an edge get the same end.
+/// Follows a curve in which a surface meets the border of a clip domain from a point of it, by short steps along the
+/// tangent. On a box, a curve belongs to a face, normal to an axis, and ends on its edges; the curves of both faces
+/// at an edge share the same end.
 template <ImplicitFunctionTraits_3 Traits>
 class Border_curve_tracer_3 {
   using Kernel = Kernel_of<Traits>;
@@ -128,7 +128,7 @@ class Border_curve_tracer_3 {
   using Border = Domain_border_3<Kernel>;
 
 public:
-  /// Steps have at most the length `step`. A projection moves a point by at most `reach`.
+  /// `step` is the maximum length of a step, `reach` the maximum distance by which a projection moves a point.
   Border_curve_tracer_3(const Traits& traits, const Border& border, double step, double reach)
       : traits_(traits), border_(border), step_(step), reach_(reach) {}
 
@@ -140,7 +140,7 @@ public:
     for (int n = 0; n < maximal_iterations; ++n) {
       const Vector_3 step = step_to_curve<Vector_3>(first_order(traits_, p), border_.function(p, axis));
       p = p + step;
-      if (!(CGAL::squared_distance(p, start) <= reach_ * reach_)) return std::nullopt; // also NaN
+      if (!(CGAL::squared_distance(p, start) <= reach_ * reach_)) return std::nullopt; // also for NaN
       if (step.squared_length() <= rounding * rounding * (p - CGAL::ORIGIN).squared_length())
         return border_.snap(p, axis);
     }
@@ -155,7 +155,7 @@ public:
     return t / std::sqrt(t.squared_length());
   }
 
-  /// The whole curve through a point of it.
+  /// The whole curve through one of its points.
   Polyline_3<Kernel> trace(const Point_3& start, int axis) {
     auto [points, is_closed] = follow(start, axis, 1);
     if (is_closed) {
@@ -171,11 +171,11 @@ public:
 
 private:
   struct Half_curve {
-    std::vector<Point_3> points; // the start is left out
-    bool leads_back;             // whether the end is the start
+    std::vector<Point_3> points; // without the start
+    bool leads_back;             // whether it ends at the start
   };
 
-  /// Goes from a point in one direction along the tangent to an end of the curve, or around it.
+  /// Follows the curve in one direction to its end or back to the start.
   Half_curve follow(const Point_3& start, int axis, double direction) {
     std::vector<Point_3> points;
     Point_3 p = start;
@@ -184,7 +184,7 @@ private:
     for (double h = step_; h > step_ / 100 && t == t;) { // a tangent of NaN ends the curve
       const Point_3 guess = p + h * t;
       const auto q = project(guess, axis);
-      if (!q) // f may have no value outside of the box
+      if (!q) // f may be undefined outside the box
         for (const int b : border_.axes_beyond(guess, axis))
           if (const auto end = end_on_edge(p, guess, axis, b)) {
             points.push_back(*end);
@@ -209,14 +209,14 @@ private:
     return {std::move(points), false};
   }
 
-  /// Whether a step along tangent t ended near the curve and the tangent of the curve there is nearly t.
+  /// Whether a step along tangent t ended near the curve, and the tangent there is nearly t.
   static bool is_good_step(const Point_3& guess, const Point_3& q, const Vector_3& t, const Vector_3& next, double h) {
     constexpr double smallest_cosine = 0.95;
     return CGAL::squared_distance(q, guess) < h * h / 16 && next * t > smallest_cosine;
   }
 
-  /// The end of the curve between p and q, which is outside of the box along axis b: Newton's method for f on the edge
-  /// of the box. Curves that end at the same place get the same point.
+  /// The end of the curve between p and q, which lies outside the box along axis b, by Newton's method for f on the
+  /// edge of the box. Curves that end at the same place get the same point.
   std::optional<Point_3> end_on_edge(const Point_3& p, const Point_3& q, int axis, int b) {
     constexpr int maximal_iterations = 20;
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
@@ -253,9 +253,9 @@ struct Border_curve_3 : Polyline_3<Kernel> {
 };
 
 /// The curves in which a surface meets the border of a clip domain, as polylines of short segments with vertices on
-/// both. A curve ends on an edge of a box, and the curves on both sides of the edge have that end in common.
+/// both. A curve ends on an edge of a box, and the curves on both sides of the edge share that end.
 ///
-/// A curve with bends smaller than `spacing`, and a closed curve smaller than that, may be missed.
+/// A curve with bends smaller than `spacing`, or a closed curve smaller than that, may be missed.
 template <ImplicitFunctionTraits_3 Traits>
 class Border_curves_3 {
   using Kernel = Kernel_of<Traits>;
@@ -293,7 +293,7 @@ public:
 private:
   using Range = std::pair<double, double>;
 
-  /// Finds the curves in a part of a face: subdivides it until the parts are small or without surface.
+  /// Finds the curves in a part of a face by subdivision until the parts are small or without surface.
   void search(const Face& face, const Range& u, const Range& v) {
     const std::array<Point_3, 4> corners = {
         border_.point(face, u.first, v.first), border_.point(face, u.second, v.first),
@@ -321,7 +321,7 @@ private:
     }
   }
 
-  /// Whether there is no surface in a box that is enlarged by a margin.
+  /// Whether there is no surface in a box enlarged by a margin.
   bool is_empty(const CGAL::Bbox_3& b, double margin) const {
     if constexpr (BoundedImplicitFunctionTraits_3<Traits>)
       return !traits_
@@ -331,8 +331,8 @@ private:
     else return false;
   }
 
-  /// Whether a curve of the same face passes near p. A curve that runs in an edge of the box belongs to two faces, and
-  /// is found on the first one only.
+  /// Whether an already traced curve of the same face passes near p. A curve in an edge of the box belongs to two
+  /// faces, and is only traced on the first one.
   bool is_traced(const Point_3& p, int axis) {
     const Seed seed = seed_at(p);
     if (traced_.back().is_crowded(seed)) return true;
@@ -365,8 +365,8 @@ private:
 
   bool is_short(const Point_3& p, const Point_3& q) const { return CGAL::squared_distance(p, q) < step_ * step_ / 100; }
 
-  /// Drops points very near to the ends of an open curve: a step may stop right before an edge of the box, or the curve
-  /// may have been found there.
+  /// Drops points very close to the ends of an open curve: a step may stop just before an edge of the box, or the
+  /// curve may have been found there.
   void drop_neighbors_of_ends(std::vector<Point_3>& p) const {
     while (p.size() > 2 && is_short(p[0], p[1])) p.erase(p.begin() + 1);
     while (p.size() > 2 && is_short(p[p.size() - 1], p[p.size() - 2])) p.erase(p.end() - 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Inserts the initial points into the triangulation, and makes an oriented triangle mesh of its facets.
+// Inserts the initial points into the triangulation, and extracts an oriented triangle mesh from its facets.
 #ifndef EQUIAFFINE_SRC_DELAUNAY_FACET_MESH_H
 #define EQUIAFFINE_SRC_DELAUNAY_FACET_MESH_H
 
@@ -25,10 +25,10 @@
 
 namespace equiaffine::internal {
 
-/// The result of `insert_points`: facts about the vertices on the surface.
+/// The result of `insert_points`.
 struct Inserted_points {
   std::vector<std::pair<Surface_vertex, Surface_vertex>> feature_edges; ///< neighbors on features
-  std::vector<Surface_domain_3::Point_3> hidden; ///< points of features and seeds that other vertices leave no room for
+  std::vector<Surface_domain_3::Point_3> hidden; ///< points of features and seeds hidden by the balls of other vertices
 };
 
 inline Surface_domain_3::Point_3 to_mesher(const Any_function_3::Point_3& p) { return {p.x(), p.y(), p.z()}; }
@@ -43,7 +43,7 @@ inline Surface_vertex insert_point(Surface_complex& complex, const Surface_trian
   return vertex;
 }
 
-/// Inserts points in an order in which neighbors follow each other, and returns those that balls hide.
+/// Inserts points in spatial order, and returns those that are hidden by balls.
 inline std::vector<Surface_domain_3::Point_3>
 insert_sorted(Surface_complex& complex, const std::vector<Any_function_3::Point_3>& points, int dimension) {
   std::vector<Surface_domain_3::Point_3> sorted, hidden;
@@ -59,7 +59,7 @@ insert_sorted(Surface_complex& complex, const std::vector<Any_function_3::Point_
   return hidden;
 }
 
-/// Inserts the initial points into an empty triangulation. It stays empty if none of them is on the surface.
+/// Inserts the initial points into an empty triangulation. It stays empty if none of them lies on the surface.
 inline Inserted_points insert_points(Surface_complex& complex, const Initial_points& points) {
   Inserted_points inserted;
   if (points.seeds.empty() && points.balls.empty()) return inserted;
@@ -81,10 +81,10 @@ inline Inserted_points insert_points(Surface_complex& complex, const Initial_poi
   return inserted;
 }
 
-/// Two triangles with a common edge, which is in no third one.
+/// The neighbor of a triangle across an edge that is in no third triangle.
 struct Adjacent_triangle {
-  std::size_t triangle; ///< index of the other one
-  bool agrees;          ///< whether both pass the edge in opposite directions
+  std::size_t triangle; ///< index of the neighbor
+  bool agrees;          ///< whether both traverse the edge in opposite directions
 };
 
 /// The triangles across the edges of each triangle.
@@ -118,8 +118,8 @@ adjacent_triangles(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   return adjacent;
 }
 
-/// Flips the fewest triangles per component so that adjacent ones agree. Components are connected by edges that are in
-/// exactly two triangles. \pre the components can be oriented
+/// Flips the minimum number of triangles per component so that adjacent ones agree. Components are connected by edges
+/// that are in exactly two triangles. \pre the components are orientable
 inline void orient_triangles(std::vector<std::array<std::uint32_t, 3>>& triangles) {
   const auto adjacent = adjacent_triangles(triangles);
   enum State { UNSEEN, LIKE_FIRST, UNLIKE_FIRST };
@@ -142,12 +142,12 @@ inline void orient_triangles(std::vector<std::array<std::uint32_t, 3>>& triangle
   }
 }
 
-/// The facets of a triangulation that approximate the surface, as triangles between numbered points.
+/// The facets of a triangulation that approximate the surface, as triangles with point indices.
 struct Facet_mesh {
   using Numbers = std::unordered_map<const void*, std::uint32_t>;
 
   Delaunay_surface_3<Any_function_3::Kernel> surface;
-  Numbers numbers;                 ///< number of the point, by the address of the vertex
+  Numbers numbers;                 ///< the index of a point, by the address of its vertex
   std::vector<bool> is_on_feature; ///< per point
   Mesh_topology topology;
 
@@ -155,7 +155,7 @@ struct Facet_mesh {
   bool has(Surface_vertex vertex) const { return find(vertex) != numbers.end(); }
 };
 
-/// Returns the number of a vertex. A vertex gets the next number when this is called for it for the first time.
+/// Returns the index of a vertex. The first call for a vertex assigns the next index to it.
 inline std::uint32_t number_of(Surface_vertex vertex, Facet_mesh& mesh) {
   const auto [entry, is_new] = mesh.numbers.try_emplace(&*vertex, std::uint32_t(mesh.numbers.size()));
   if (is_new) {
@@ -166,8 +166,8 @@ inline std::uint32_t number_of(Surface_vertex vertex, Facet_mesh& mesh) {
   return entry->second;
 }
 
-/// Returns the facets as triangles that are counterclockwise seen from where f is positive. Beside a crease, where
-/// gradients do not show that side, a triangle is oriented as its neighbors are.
+/// Returns the facets as triangles that are counterclockwise seen from where f is positive. Near a crease, where
+/// gradients do not determine that side, a triangle is oriented like its neighbors.
 inline Facet_mesh read_facets(const Surface_complex& complex, const Memoized_function_3& function) {
   using Vector_3 = Any_function_3::Vector_3;
   Facet_mesh mesh;
@@ -195,8 +195,8 @@ inline Facet_mesh read_facets(const Surface_complex& complex, const Memoized_fun
 
 using Lost_points = std::vector<Surface_domain_3::Point_3>;
 
-/// Appends the points where the mesh is not a manifold, since parts of the surface, or features, are nearer to each
-/// other than facets are large.
+/// Appends the points where the mesh is not a manifold because parts of the surface, or features, are closer to each
+/// other than the size of facets.
 inline void append_singular_vertices(const Facet_mesh& mesh, Lost_points& lost) {
   const auto& surface = mesh.surface;
   for_each_vertex_link(surface.triangles, surface.points.size(), [&](const auto& link) {
@@ -212,10 +212,10 @@ inline void append_isolated_vertices(const Surface_triangulation& triangulation,
     if (vertex->in_dimension() < 3 && !mesh.has(vertex)) lost.push_back(triangulation.point(vertex).point());
 }
 
-/// Appends the midpoints between neighbors on a feature that no edge of the mesh joins. A neighbor in no triangle is an
-/// isolated vertex.
+/// Appends the midpoints between neighbors on a feature that are not joined by an edge of the mesh, except those with
+/// a neighbor in no triangle, which is an isolated vertex.
 inline void append_missing_feature_edges(const Inserted_points& inserted, const Facet_mesh& mesh, Lost_points& lost) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> edges; // between points on features, the smaller number first
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges; // between points on features, the smaller index first
   for (const auto& t : mesh.surface.triangles)
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t v = t[i], w = t[(i + 1) % 3];
@@ -226,7 +226,7 @@ inline void append_missing_feature_edges(const Inserted_points& inserted, const 
       lost.push_back(CGAL::midpoint(v->point().point(), w->point().point()));
 }
 
-/// Adds the triangle between an edge of a feature and two edges of the border of the mesh. It is no facet where the
+/// Adds the triangle between an edge of a feature and two edges of the border of the mesh. It is not a facet if the
 /// center of its surface Delaunay ball would lie beyond the end of the surface.
 inline void add_missing_facets(const Inserted_points& inserted, Facet_mesh& mesh) {
   auto& surface = mesh.surface;

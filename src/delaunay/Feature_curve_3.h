@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The curves on a surface that the mesh follows: given ones, parabolic curves, and those where the surface ends.
+// The curves on a surface that the mesh follows: given curves, parabolic curves, and those where the surface ends.
 #ifndef EQUIAFFINE_SRC_DELAUNAY_FEATURE_CURVE_3_H
 #define EQUIAFFINE_SRC_DELAUNAY_FEATURE_CURVE_3_H
 
@@ -35,11 +35,11 @@ struct Feature_curve_3 {
   using Point_3 = Kernel::Point_3;
 
   Polyline_3<Kernel> polyline;
-  std::function<std::optional<Point_3>(const Point_3&)> project; ///< to a point of the curve nearby, if there is one
-  bool reaches_border = false; ///< an end near the border of the clip domain is continued to it
+  std::function<std::optional<Point_3>(const Point_3&)> project; ///< to a nearby point of the curve, if there is one
+  bool reaches_border = false; ///< an end near the border of the clip domain is extended to it
 };
 
-/// The features that the caller gave as polylines.
+/// The features given by the caller as polylines.
 inline std::vector<Feature_curve_3> given_features(const Any_function_3& function, const Meshing_request_3& request) {
   const auto project = [function, reach = request.criteria.radius](const Any_function_3::Point_3& p) {
     const auto found = project_to_surface(function, p, reach);
@@ -60,17 +60,17 @@ inline void append_parabolic_features(const Any_function_3& function,
   for (const auto& curve : curves) features.push_back({curve, project, true});
 }
 
-/// Joins the ends of features on a surface with the curves in which the surface meets the border of the clip domain.
+/// Connects the ends of features to the curves in which the surface meets the border of the clip domain.
 class Feature_ends_3 {
   using Kernel = Any_function_3::Kernel;
   using Point_3 = Kernel::Point_3;
   using Vector_3 = Kernel::Vector_3;
 
 public:
-  /// `size` bounds the size of facets.
+  /// `size` is the maximum size of facets.
   Feature_ends_3(const Clip_domain_3& domain, double size) : domain_(domain), size_(size) {}
 
-  /// Prolongs an open curve at those ends from which it reaches the border within the size of a facet.
+  /// Extends an open curve at those ends from which it reaches the border within the size of a facet.
   void extend(Feature_curve_3& curve) {
     auto& points = curve.polyline.points;
     if (curve.polyline.is_closed || points.size() < 2) return;
@@ -82,7 +82,7 @@ public:
 
   bool is_on_border(const Point_3& p) const { return std::find(ends_.begin(), ends_.end(), p) != ends_.end(); }
 
-  /// Cuts a curve on the border at the ends of the curves that `extend` brought there.
+  /// Splits a curve on the border at the ends of the curves that `extend` has extended.
   std::vector<Polyline_3<Kernel>> split(Polyline_3<Kernel> curve) const {
     auto& points = curve.points;
     const std::vector<Point_3> cuts = insert_ends(curve);
@@ -113,7 +113,7 @@ private:
     ends_.push_back(*end);
   }
 
-  /// Inserts those ends into a curve that it passes through, nearer than chords are to the curve, and returns them.
+  /// Inserts the ends that lie on a curve, up to the distance of chords from the curve, and returns them.
   std::vector<Point_3> insert_ends(Polyline_3<Kernel>& curve) const {
     std::vector<Point_3> inserted;
     for (const Point_3& end : ends_) {
@@ -138,13 +138,13 @@ private:
     return nearest;
   }
 
-  /// A side of the box; a ball has one side only, which any value stands for.
+  /// A side of the box; ignored for a ball, which has only one side.
   struct Side {
     int axis;
     bool is_upper;
   };
 
-  /// The side beyond which p is furthest.
+  /// The side beyond which p is farthest.
   Side side_beyond(const Point_3& p) const {
     const CGAL::Bbox_3& box = domain_.bbox();
     Side side{0, false};
@@ -168,8 +168,8 @@ private:
     return domain_.radius() - std::sqrt(CGAL::squared_distance(p, Point_3(c[0], c[1], c[2])));
   }
 
-  /// Returns the point where the curve, which comes from `before` to its last point p, leaves the domain, or nothing if
-  /// it does not leave it within the size of a facet.
+  /// Returns the point where the curve from `before` to its last point p leaves the domain, or nothing if it does not
+  /// within the size of a facet.
   std::optional<Point_3> end_on_border(const Feature_curve_3& curve, const Point_3& before, const Point_3& p) const {
     const Vector_3 direction = p - before;
     const Point_3 guess = p + size_ / std::sqrt(direction.squared_length()) * direction;
@@ -178,8 +178,8 @@ private:
     return intersect_side(curve, p, *beyond);
   }
 
-  /// Returns the point where the curve between a point inside and one outside of the domain meets the border. It is
-  /// found by the Illinois variant of regula falsi.
+  /// Returns the point where the curve meets the border between a point inside and one outside the domain, by the
+  /// Illinois variant of regula falsi.
   std::optional<Point_3> intersect_side(const Feature_curve_3& curve, Point_3 a, Point_3 b) const {
     constexpr int maximal_iterations = 60;
     const Side side = side_beyond(b);
@@ -203,7 +203,7 @@ private:
     return {};
   }
 
-  /// Returns p, moved into a side of the box; for a ball it returns p itself.
+  /// Returns p, moved into a side of the box; p itself for a ball.
   Point_3 on_side(const Point_3& p, const Side& side) const {
     if (domain_.is_ball()) return p;
     std::array<double, 3> x = {p.x(), p.y(), p.z()};
@@ -214,11 +214,11 @@ private:
 
   const Clip_domain_3& domain_;
   const double size_;
-  std::vector<Point_3> ends_; // ends on the border of the curves that were extended
+  std::vector<Point_3> ends_; // the ends on the border of the extended curves
 };
 
-/// Finds the curves where a surface ends within the clip domain, since f is not defined beyond. The border of a mesh is
-/// ragged there. From it, paths on the surface lead to the ends, which are joined to polylines.
+/// Finds the curves where a surface ends within the clip domain because f is undefined beyond them. The border of a
+/// mesh is ragged there. Paths on the surface lead from it to the ends, which are joined to polylines.
 class End_curves_3 {
   using Kernel = Any_function_3::Kernel;
   using Point_3 = Kernel::Point_3;
@@ -228,7 +228,7 @@ class End_curves_3 {
   using Points = std::vector<Point_3>;
 
 public:
-  /// `radius` bounds the size of facets.
+  /// `radius` is the maximum radius of facets.
   End_curves_3(const Any_function_3& function, const Clip_domain_3& domain, double radius)
       : function_(function), domain_(domain), radius_(radius),
         intersect_(Domain(function, {.clip = domain, .radius = radius}).construct_intersection_with_zero_set_object()) {
@@ -246,7 +246,7 @@ public:
   }
 
 private:
-  /// The edges of a single triangle each, as its vertices with the opposite one last.
+  /// The edges that are in only one triangle, each with the opposite vertex in the last place.
   static std::vector<std::array<std::uint32_t, 3>> boundary_edges(const Mesh& mesh) {
     std::vector<std::array<std::uint32_t, 3>> edges;
     for (const auto& t : mesh.triangles)
@@ -265,7 +265,8 @@ private:
     return result;
   }
 
-  /// Goes to the end of the surface from points beside the edge ab, which is in one triangle only, with the corner c.
+  /// Follows paths to the end of the surface from points near the edge ab, which is in only one triangle, with vertex
+  /// c.
   void find_ends(const Point_3& a, const Point_3& b, const Point_3& c) {
     if (is_on_border(a) && is_on_border(b)) return;
     const Vector_3 along = b - a, across = a - c;
@@ -281,7 +282,7 @@ private:
     }
   }
 
-  /// The last point of a path on the surface, which is as straight as the surface lets it be, if f is not defined right
+  /// The last point of a path on the surface that is as straight as the surface allows, if f is undefined right
   /// beyond that point.
   std::optional<Point_3> end_of_path(Point_3 p, Vector_3 direction) const {
     double length = 0;
@@ -289,7 +290,7 @@ private:
       const Vector_3 gradient = gradient_of<Vector_3>(function_.first_order(p));
       const Vector_3 tangent = direction - (direction * gradient) / gradient.squared_length() * gradient;
       const Point_3 guess = p + step / std::sqrt(tangent.squared_length()) * tangent;
-      if (!(guess == guess)) break; // f has no gradient at the end itself
+      if (!(guess == guess)) break; // f has no gradient at the end
       if (!domain_.contains(guess) || length > 2 * radius_) return std::nullopt;
       if (const auto next = project(guess, step / 2)) {
         direction = *next - p;
@@ -302,7 +303,7 @@ private:
     return is_beside_undefined(p) ? std::optional(p) : std::nullopt;
   }
 
-  /// A point of the surface on the line through p along the gradient, not further away than `reach`.
+  /// A point of the surface on the line through p along the gradient, at most `reach` away.
   std::optional<Point_3> project(const Point_3& p, double reach) const {
     const Vector_3 gradient = gradient_of<Vector_3>(function_.first_order(p));
     const double norm = std::sqrt(gradient.squared_length());
@@ -330,7 +331,7 @@ private:
     return false;
   }
 
-  /// Ends that are not much nearer to each other than facets are large; those on the border come first.
+  /// The ends, thinned to a spacing of about a facet; those on the border take precedence.
   Points spaced() const {
     const double spacing = radius_ / 4;
     Seed_grid_3<Point_3, Vector_3> grid;
@@ -343,7 +344,7 @@ private:
     return result;
   }
 
-  /// Joins each point with the nearest one ahead. Polylines of less than four points are dropped.
+  /// Joins each point with the nearest one ahead. Polylines of fewer than four points are dropped.
   std::vector<Polyline_3<Kernel>> joined(Points points) const {
     std::vector<Polyline_3<Kernel>> polylines;
     while (!points.empty()) {
@@ -359,7 +360,7 @@ private:
     return polylines;
   }
 
-  /// Moves points to the end of a line as long as there is one ahead.
+  /// Moves points to the end of a line while there is one ahead.
   void extend(Points& line, Points& points) const {
     while (true) {
       auto next = points.end();
@@ -371,7 +372,7 @@ private:
     }
   }
 
-  /// Whether a line reaches p if it goes on by the size of a facet, and turns by less than 60 degrees.
+  /// Whether p is at most a facet size away from the end of a line and requires a turn of less than 60 degrees.
   bool is_ahead(const Point_3& p, const Points& line) const {
     const Vector_3 step = p - line.back();
     if (step.squared_length() > radius_ * radius_) return false;

@@ -21,8 +21,8 @@
 
 namespace equiaffine::internal {
 
-/// A function that remembers its latest values and counts its evaluations: the mesher asks for each circumcenter up to
-/// four times. Copies share the memory, which must outlive them. They are for one thread only.
+/// A function that caches its latest values and counts its evaluations: the mesher evaluates each circumcenter up to
+/// four times. Copies share the memory, which must outlive them. Not thread-safe.
 class Memoized_function_3 {
 public:
   using FT = Any_function_3::FT;
@@ -51,7 +51,7 @@ public:
   explicit Memoized_function_3(Memory& memory) : memory_(&memory) {}
 
   double value(const Point_3& p) const {
-    Progress_observer::step(); // CGAL's mesher has no other place to end its work
+    Progress_observer::step(); // the only place where CGAL's mesher can be canceled
     auto& entry = memory_->entries_[slot(p)];
     if (!(entry.point == p)) {
       entry = {p, memory_->function_.value(p)};
@@ -70,7 +70,8 @@ public:
     return memory_->function_.taylor(p);
   }
 
-  /// `equiaffine::intersect_segment` calls this. The model iterates itself, and only the number of evaluations is kept.
+  /// Called by `equiaffine::intersect_segment`. The model iterates by itself; only the number of evaluations is
+  /// recorded.
   Surface_point_3<Any_function_3::Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa,
                                                             double fb) const {
     const auto found = memory_->function_.intersect_segment(a, b, fa, fb);
@@ -99,8 +100,8 @@ private:
   Memory* memory_;
 };
 
-/// The domain for CGAL's mesher. It has a surface and no interior, so that the mesher never asks on which side of the
-/// surface a point is.
+/// The domain for CGAL's mesher. It has a surface but no interior, so that the mesher never queries the side of a
+/// point.
 struct Surface_domain_3 : Implicit_mesh_domain_3<Memoized_function_3> {
   using Implicit_mesh_domain_3::Implicit_mesh_domain_3;
 
@@ -112,16 +113,16 @@ struct Surface_domain_3 : Implicit_mesh_domain_3<Memoized_function_3> {
   Do_intersect_surface do_intersect_surface_object() const { return {construct_intersection_object()}; }
 };
 
-/// A triangulation, and which of its facets approximate the surface. The `in_dimension()` of a vertex is 0 for corners
-/// of features and singular points, 1 on curves that are features, 2 on the rest of the surface, and 3 elsewhere.
+/// A triangulation, and its facets that approximate the surface. The `in_dimension()` of a vertex is 0 for corners of
+/// features and singular points, 1 on curves that are features, 2 on the rest of the surface, and 3 elsewhere.
 using Surface_triangulation = CGAL::Mesh_triangulation_3<Surface_domain_3>::type;
 using Surface_vertex = Surface_triangulation::Vertex_handle;
 using Surface_complex = CGAL::Mesh_complex_3_in_triangulation_3<Surface_triangulation>;
 
 } // namespace equiaffine::internal
 
-/// Before CGAL's mesher throws an assertion, it writes the triangulation to files in the current folder, unless this
-/// class does nothing.
+/// Prevents CGAL's mesher from writing the triangulation to files in the current folder before it throws an
+/// assertion.
 template <>
 struct CGAL::Dump_c3t3<equiaffine::internal::Surface_complex, true> {
   void dump_c3t3(const equiaffine::internal::Surface_complex&, const std::string&, bool = false) const {}
@@ -132,8 +133,7 @@ namespace equiaffine::internal {
 /// The topology that the facets must have.
 enum class Manifoldness { ANY, MANIFOLD, MANIFOLD_WITH_BOUNDARY };
 
-/// Refines the facets, and nothing else, from the points that are in the triangulation. The calls of CGAL 5, 6.0 and
-/// 6.1 differ.
+/// Refines only the facets, starting from the points in the triangulation. The calls of CGAL 5, 6.0, and 6.1 differ.
 template <class C3t3, class Domain, class Criteria>
 void refine_facets(C3t3& c3t3, const Domain& domain, const Criteria& criteria, Manifoldness manifoldness) {
   namespace parameters = CGAL::parameters;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The criteria by which CGAL's mesher refines facets, and the field of sizes that bounds their radius.
+// The criteria by which CGAL's mesher refines facets, and the sizing field that bounds their radius.
 #ifndef EQUIAFFINE_SRC_DELAUNAY_SURFACE_CRITERIA_3_H
 #define EQUIAFFINE_SRC_DELAUNAY_SURFACE_CRITERIA_3_H
 
@@ -19,7 +19,7 @@
 
 namespace equiaffine::internal {
 
-/// The bound of the radius of facets near a point, which lies between radius/16 and radius.
+/// The maximum radius of facets near a point, between radius/16 and radius.
 class Facet_sizing_field {
 public:
   Facet_sizing_field(const Any_function_3& function, const Clip_domain_3& domain, double radius, Facet_sizing sizing)
@@ -31,7 +31,7 @@ public:
     const auto structure = local_structure(function_.taylor(Any_function_3::Point_3(p.x(), p.y(), p.z())));
     const double size = sizing_ == Facet_sizing::EUCLIDEAN ? euclidean(structure) : affine(structure);
     if (size < radius_ / 16) return radius_ / 16;
-    return size >= radius_ / 16 ? std::min(size, radius_) : radius_; // NaN gives the radius, too
+    return size >= radius_ / 16 ? std::min(size, radius_) : radius_; // the radius also for NaN
   }
 
 private:
@@ -41,7 +41,7 @@ private:
     return 0.25 / std::max(std::abs(e.k1), std::abs(e.k2));
   }
 
-  /// The size that gives facets of equal affine area. It is the radius where the Gaussian curvature is that of a sphere
+  /// The size for facets of equal affine area. It equals the radius where the Gaussian curvature is that of a sphere
   /// that fills the domain.
   double affine(const Local_structure_3<double>& s) const {
     return radius_ * std::pow(std::abs(s.euclidean.gaussian_curvature) * extent_ * extent_, -0.125);
@@ -52,14 +52,14 @@ private:
   Facet_sizing sizing_;
 };
 
-/// Model of CGAL's MeshCriteria_3 for surfaces alone. CGAL's own facet criteria measure the same; these do it without
-/// virtual calls, and can stop at a smallest facet.
+/// A model of CGAL's MeshCriteria_3 for surfaces only. CGAL's own facet criteria measure the same; these avoid
+/// virtual calls and can stop at a smallest facet.
 template <class Triangulation>
 class Surface_criteria_3 {
 public:
   struct Facet_criteria {
     enum Criterion { ON_SURFACE, RADIUS, DISTANCE, ANGLE };
-    using Facet_quality = std::pair<int, double>; ///< criterion and ratio of bound and measure: the worst come first
+    using Facet_quality = std::pair<int, double>; ///< criterion, and bound / measured value: the worst come first
     using Is_facet_bad = Cgal_optional<Facet_quality>;
 
     Is_facet_bad operator()(const Triangulation& triangulation, const typename Triangulation::Facet& facet) const {
@@ -79,14 +79,14 @@ public:
         touches_corner = touches_corner || dimension == 0;
         largest_weight = std::max(largest_weight, double(point(i).weight()));
       }
-      // No vertex may come into or near a ball around a feature.
+      // No vertex may lie in or near a ball around a feature.
       if (squared_radius - point(1).weight() < clearance * largest_weight) return Is_facet_bad();
       const double bound = size(center);
       if (squared_radius > bound * bound) return bad(RADIUS, bound * bound / squared_radius);
       return touches_corner ? Is_facet_bad() : is_shape_bad(p, q, r, squared_radius);
     }
 
-    /// The criteria of angle and distance, for a triangle with a surface Delaunay ball of the given radius.
+    /// The criteria for angle and distance, for a triangle with a surface Delaunay ball of the given radius.
     template <class Point_3>
     Is_facet_bad is_shape_bad(const Point_3& p, const Point_3& q, const Point_3& r, double squared_radius) const {
       const double a = CGAL::squared_distance(q, r), b = CGAL::squared_distance(r, p), c = CGAL::squared_distance(p, q);
@@ -103,9 +103,9 @@ public:
       return Is_facet_bad(Facet_quality(criterion, quality));
     }
 
-    static constexpr double clearance = 2; // least square of distance / radius of a ball around a feature
+    static constexpr double clearance = 2; // minimum square of distance / radius of a ball around a feature
 
-    double squared_min_radius_bound() const { return smallest * smallest; } // CGAL 6 asks for it
+    double squared_min_radius_bound() const { return smallest * smallest; } // required by CGAL 6
 
     Facet_sizing_field size;
     double least_sine, distance, smallest;
@@ -117,7 +117,7 @@ public:
     Is_cell_bad operator()(const Triangulation&, const typename Triangulation::Cell_handle&) const { return {}; }
   };
 
-  /// Facets in a surface Delaunay ball of radius below `smallest` are left as they are.
+  /// Facets with a surface Delaunay ball of a radius below `smallest` are not refined.
   Surface_criteria_3(const Delaunay_criteria& criteria, const Facet_sizing_field& size, double smallest)
       : facet_criteria_{size, std::sin(criteria.angle * std::numbers::pi / 180), criteria.distance, smallest} {}
 

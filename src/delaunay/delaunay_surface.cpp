@@ -21,8 +21,8 @@
 
 namespace equiaffine::internal {
 
-/// Silences CGAL's messages during its lifetime: on the standard error stream the mesher warns of a triangulation that
-/// does not meet the surface, and with some compilers it says there what it throws.
+/// Silences CGAL's messages during its lifetime: on the standard error stream, the mesher warns about a triangulation
+/// that does not meet the surface and, with some compilers, reports what it throws.
 class Silent_messages {
 public:
   Silent_messages()
@@ -40,8 +40,8 @@ private:
   CGAL::Failure_function warning_handler_, error_handler_;
 };
 
-/// The sign of the Gaussian curvature of the surface at a point. It is 0 where the curvature is negligible beside k1
-/// and k2, or beside the curvature 1/radius of a facet's ball.
+/// The sign of the Gaussian curvature of the surface at a point; 0 if the curvature is negligible compared to k1 and
+/// k2, or to the curvature 1/radius of a facet's ball.
 inline int sign_of_gaussian_curvature(const Any_function_3& function, const Any_function_3::Point_3& p, double radius) {
   constexpr double negligible = 1e-8;
   const auto e = local_structure(function.taylor(p)).euclidean;
@@ -66,8 +66,8 @@ namespace {
 
 using Mesh = Delaunay_surface_3<Any_function_3::Kernel>;
 
-/// Makes one mesh: finds initial points, inserts them, refines the triangulation, and finds the boxes in which a part
-/// of the surface may be missing from the mesh.
+/// Computes one mesh: finds initial points, inserts them, refines the triangulation, and finds the boxes in which a
+/// part of the surface may be missing from the mesh.
 class Surface_mesher {
 public:
   Surface_mesher(const Any_function_3& function, const Meshing_request_3& request,
@@ -95,12 +95,12 @@ public:
 
 private:
   /// Refines the triangulation and returns the mesh. If the surface is sampled densely enough, the mesh is a manifold
-  /// at once (Boissonnat, Oudot). If it is none, refinement goes on until it is one, unless features or undecided boxes
-  /// may keep it from ever being one.
+  /// at once (Boissonnat, Oudot). If it is not, refinement continues until it is, unless features or undecided boxes
+  /// may prevent that.
   Facet_mesh refine(const Initial_points& points) {
     if (complex_.triangulation().dimension() < 3) return {};
     const bool is_decided = points.undecided_boxes.empty();
-    const double smallest = is_decided ? 0 : criteria_.radius / 8; // near singular points facets get no smaller
+    const double smallest = is_decided ? 0 : criteria_.radius / 8; // limits refinement near singular points
     Facet_mesh mesh = refine(Manifoldness::ANY, smallest);
     if (mesh.topology.is_manifold || mesh.surface.triangles.empty() || !is_decided || points.has_features ||
         !is_refined_)
@@ -109,8 +109,9 @@ private:
     return refine(has_boundary ? Manifoldness::MANIFOLD_WITH_BOUNDARY : Manifoldness::MANIFOLD, smallest);
   }
 
-  /// CGAL's mesher gives up where the segment between the circumcenters beside a facet leads to another sheet of the
-  /// surface, as it may where facets are much larger than the bends of the surface. The mesh then stays as it is.
+  /// CGAL's mesher gives up if the segment between the circumcenters next to a facet leads to another sheet of the
+  /// surface, which may happen if facets are much larger than the bends of the surface. The mesh is then returned as
+  /// it is.
   Facet_mesh refine(Manifoldness manifoldness, double smallest) {
     const Silent_messages silence;
     try {
@@ -127,8 +128,8 @@ private:
     improve(mesh.surface, mesh.is_on_feature);
   }
 
-  /// The boxes that the seeding left undecided, one around every point that the mesh has lost, which extends from it by
-  /// the radius of a facet, and the whole box if the mesher gave up.
+  /// The boxes that the seeding left undecided, one with the radius of a facet around every point that the mesh has
+  /// lost, and the whole box if the mesher gave up.
   std::vector<CGAL::Bbox_3> undecided_boxes(const Initial_points& points, const Inserted_points& inserted,
                                             const Facet_mesh& mesh) const {
     Lost_points lost = inserted.hidden;
@@ -154,7 +155,7 @@ private:
   bool is_refined_ = true; // whether all facets satisfy the criteria
 };
 
-/// Makes a mesh with more features than an earlier one, and adds up what both cost.
+/// Remeshes with additional features; accumulates the cost of both runs.
 Mesh mesh_again(const Mesh& earlier, const Any_function_3& function, const Meshing_request_3& request,
                 const std::vector<Feature_curve_3>& features) {
   Mesh mesh = Surface_mesher(function, request, features)();
@@ -163,7 +164,7 @@ Mesh mesh_again(const Mesh& earlier, const Any_function_3& function, const Meshi
   return mesh;
 }
 
-/// Makes the first mesh, and a second one if the surface ends where f is not defined beyond: the curves where it ends
+/// Computes the first mesh, and a second one if the surface ends where f becomes undefined: the curves where it ends
 /// become features.
 Mesh mesh_to_the_ends(const Any_function_3& function, const Meshing_request_3& request,
                       std::vector<Feature_curve_3>& features) {
@@ -174,7 +175,7 @@ Mesh mesh_to_the_ends(const Any_function_3& function, const Meshing_request_3& r
   return mesh_again(mesh, function, request, features);
 }
 
-/// Makes one more mesh, which has the parabolic curves of the last one as features.
+/// Computes another mesh with the parabolic curves of the last one as features.
 Mesh follow_parabolic_curves(const Mesh& last, const Any_function_3& function, const Meshing_request_3& request,
                              std::vector<Feature_curve_3> features) {
   auto curves = parabolic_curves(last, function);

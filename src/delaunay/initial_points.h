@@ -41,10 +41,10 @@ struct Protecting_ball_3 {
   double radius = 0;
 };
 
-/// Covers curves and corners with balls. In the regular triangulation of such balls the segments between neighbors on a
-/// curve are edges if the balls of neighbors overlap and no others do (Cheng, Dey, Ramos: Delaunay refinement for
-/// piecewise smooth complexes, 2010). Where curves are near each other, or meet in a sharp corner, balls are smaller,
-/// and there are more of them.
+/// Covers curves and corners with balls. In the regular triangulation of such balls, the segments between neighbors
+/// on a curve are edges if the balls of neighbors overlap and no others do (Cheng, Dey, Ramos: Delaunay refinement
+/// for piecewise smooth complexes, 2010). Where curves are close to each other or meet in a sharp corner, there are
+/// more and smaller balls.
 template <class Kernel>
 class Protecting_balls_3 {
   using Point_3 = typename Kernel::Point_3;
@@ -60,13 +60,13 @@ public:
     std::size_t curve;         ///< index of the curve, in the order of `cover`
   };
 
-  /// Centers keep the distance `least_distance` from each other. Without it, curves that coincide but for rounding
-  /// would get balls, and the mesh around them facets, of the size of rounding errors.
+  /// `least_distance` is the minimum distance between centers. Without it, curves that coincide up to rounding would
+  /// get balls, and the mesh around them facets, of the size of rounding errors.
   explicit Protecting_balls_3(double least_distance) : least_distance_(least_distance) {}
 
-  /// Puts centers on a curve at distances of at most `size(p)`. A polyline of short segments lies near the curve;
-  /// `project(p)` is a point of the curve near a point of the polyline, or nothing, and so is `project_end(p)` near an
-  /// end of an open one.
+  /// Places centers on a curve at distances of at most `size(p)`. The curve is approximated by a polyline of short
+  /// segments. `project(p)` returns a point of the curve near a point of the polyline, or nothing; `project_end(p)`
+  /// does the same near an end of an open curve.
   template <class Sizing>
   void cover(const Polyline_3<Kernel>& curve, const Sizing& size, Projection project, const Projection& project_end) {
     std::vector<std::size_t> chain;
@@ -86,9 +86,9 @@ public:
     projections_.push_back(std::move(project));
   }
 
-  /// Sets the radii when all curves are covered, and adds balls where neighbors would not overlap.
+  /// Sets the radii after all curves are covered, and adds balls where neighbors would not overlap.
   void complete() {
-    constexpr int rounds = 6; // each one halves the distances that are left
+    constexpr int rounds = 6; // each one halves the remaining distances
     for (int round = 0; round == 0 || (round < rounds && fill_gaps()); ++round) {
       set_radii();
       separate();
@@ -99,7 +99,7 @@ public:
 
   const std::vector<Ball>& balls() const { return balls_; }
   const std::vector<Segment>& segments() const { return segments_; }
-  const std::vector<Point_3>& omitted() const { return omitted_; } ///< points that are too near to other centers
+  const std::vector<Point_3>& omitted() const { return omitted_; } ///< points that are too close to other centers
   double least_distance() const { return least_distance_; }
 
 private:
@@ -111,8 +111,8 @@ private:
     return balls_[s.first].radius + balls_[s.second].radius > distance(s.first, s.second);
   }
 
-  /// Points that divide a polyline into pieces of equal length, measured in sizes, of at most one size each. There are
-  /// at least three pieces. The ends of an open polyline are left out.
+  /// Points that divide a polyline into at least three pieces of equal length, measured in sizes, of at most one size
+  /// each. Excludes the ends of an open polyline.
   template <class Sizing>
   static std::vector<Point_3> divide(const Polyline_3<Kernel>& curve, const Sizing& size) {
     std::vector<Point_3> points = curve.points;
@@ -132,7 +132,7 @@ private:
     return divisions;
   }
 
-  /// Adds a ball and returns its index, or nothing if p is too near to another center.
+  /// Adds a ball and returns its index, or nothing if p is too close to another center.
   std::optional<std::size_t> add(const Point_3& p, int dimension) {
     const typename Grid::Seed center{p, Vector_3(0, 0, 0), least_distance_};
     if (centers_.is_crowded(center)) return std::nullopt;
@@ -142,7 +142,7 @@ private:
     return balls_.size() - 1;
   }
 
-  /// The ball at a corner, which all curves that end there have in common.
+  /// The ball at a corner, which is shared by all curves that end there.
   std::optional<std::size_t> corner(const Point_3& p) {
     const auto known =
         std::find_if(corners_.begin(), corners_.end(), [&](std::size_t n) { return balls_[n].center == p; });
@@ -163,7 +163,7 @@ private:
     return std::find(neighbors_[a].begin(), neighbors_[a].end(), b) != neighbors_[a].end();
   }
 
-  /// Gives every ball the radius at which it overlaps with its neighbors, if they are about as large.
+  /// Gives every ball a radius at which it overlaps with its neighbors if they are about as large.
   void set_radii() {
     constexpr double overlap = 0.52; // radius / distance of neighbors
     for (std::size_t n = 0; n < balls_.size(); ++n) {
@@ -181,7 +181,7 @@ private:
     return most_of_distance * shortest;
   }
 
-  /// Reduces balls that overlap though they are no neighbors.
+  /// Shrinks balls that overlap although they are not neighbors.
   void separate() {
     std::vector<std::size_t> order(balls_.size());
     std::iota(order.begin(), order.end(), 0);
@@ -211,7 +211,7 @@ private:
       }
   }
 
-  /// Enlarges ball n of a segment whose balls do not overlap, as far as all others let it.
+  /// Enlarges ball n of a segment whose balls do not overlap, as far as the other balls allow.
   void widen(std::size_t n, const Segment& s) {
     if (overlap(s)) return;
     const std::size_t other = s.first + s.second - n;
@@ -221,7 +221,8 @@ private:
     balls_[n].radius = std::max(balls_[n].radius, radius);
   }
 
-  /// Adds a ball between neighbors that do not overlap, where the curve has a point. Returns whether any was added.
+  /// Adds a ball between neighbors that do not overlap, if the curve has a point there. Returns whether any was
+  /// added.
   bool fill_gaps() {
     const std::size_t size = segments_.size();
     bool is_added = false;
@@ -243,7 +244,7 @@ private:
     return is_added;
   }
 
-  static constexpr double gap = 0.98; // largest sum of radii / distance of balls that are no neighbors
+  static constexpr double gap = 0.98; // maximum of sum of radii / distance for balls that are not neighbors
 
   const double least_distance_;
   Grid centers_;
@@ -258,12 +259,12 @@ private:
 using Feature_balls = Protecting_balls_3<Any_function_3::Kernel>;
 
 /// Balls along all features: the given curves, and the curves in which the surface meets the border of the domain.
-/// `radius` bounds the size of facets. Points of features that are nearer to others than a thousandth of it are left
-/// out.
+/// `radius` is the maximum radius of facets. Points of features that are closer to others than a thousandth of it are
+/// omitted.
 inline Feature_balls cover_features(const Memoized_function_3& function, const Clip_domain_3& domain, double radius,
                                     const Facet_sizing_field& size, const std::vector<Feature_curve_3>& given) {
   using Point_3 = Any_function_3::Point_3;
-  constexpr double spacing_in_sizes = 0.8; // lets the facets beside features have the angles of others
+  constexpr double spacing_in_sizes = 0.8; // small enough for good angles of the facets at features
   const auto spacing = [&](const Point_3& p) { return spacing_in_sizes * size(p); };
   const auto keep = [](const Point_3& p) { return std::optional(p); };
   Feature_balls balls(radius / 1000);
@@ -287,9 +288,9 @@ inline Feature_balls cover_features(const Memoized_function_3& function, const C
   return balls;
 }
 
-/// Finds the node of a surface near a point, an isolated singular point such as the apex of a cone: f and its gradient
-/// are 0 there, and its Hessian is regular. Newton's method finds it as a critical point of f, not further away than
-/// `reach`.
+/// Finds the node of a surface near a point, an isolated singular point such as the apex of a cone: f and its
+/// gradient are 0 there, and its Hessian is regular. Newton's method finds it as a critical point of f, at most
+/// `reach` away.
 template <ImplicitFunctionTraits_3 Traits>
 std::optional<typename Traits::Point_3> node_near(const Traits& traits, const typename Traits::Point_3& start,
                                                   double reach) {
@@ -314,16 +315,16 @@ std::optional<typename Traits::Point_3> node_near(const Traits& traits, const ty
   return std::nullopt;
 }
 
-/// Finds the isolated singular point of a surface near a point where f has no gradient, such as the apex of half a cone
-/// or of a pyramid, not much further away than `reach`. The tangent planes around an apex nearly meet in it: their
-/// least squares point is computed from gradients at points around, at smaller and smaller distances.
+/// Finds the isolated singular point of a surface near a point where f has no gradient, such as the apex of half a
+/// cone or of a pyramid, not much farther away than `reach`. The tangent planes around an apex almost meet in it:
+/// their least-squares point is computed from gradients at surrounding points, at smaller and smaller distances.
 template <ImplicitFunctionTraits_3 Traits>
 std::optional<typename Traits::Point_3> apex_near(const Traits& traits, const typename Traits::Point_3& start,
                                                   double reach) {
   using Vector_3 = typename Traits::Vector_3;
   constexpr int directions = 16;
-  constexpr double shrinkage = 8, last_distance = 1e-7; // of the points around, relative to the reach
-  constexpr double least_eigenvalue = 1e-4;             // relative to the largest one; it tends to 0 except at an apex
+  constexpr double shrinkage = 8, last_distance = 1e-7; // of the surrounding points, relative to the reach
+  constexpr double least_eigenvalue = 1e-4;             // relative to the largest one; tends to 0 except at an apex
   auto p = start;
   for (double distance = reach; distance > last_distance * reach; distance /= shrinkage) {
     Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
@@ -347,7 +348,7 @@ std::optional<typename Traits::Point_3> apex_near(const Traits& traits, const ty
   return p;
 }
 
-/// The isolated singular points of a surface in or near some boxes, each once.
+/// The isolated singular points of a surface in or near some boxes, without repetition.
 template <ImplicitFunctionTraits_3 Traits>
 std::vector<typename Traits::Point_3> singular_points_in(const Traits& traits, const std::vector<CGAL::Bbox_3>& boxes) {
   using Point_3 = typename Traits::Point_3;
@@ -365,7 +366,7 @@ std::vector<typename Traits::Point_3> singular_points_in(const Traits& traits, c
   return points;
 }
 
-/// The points that are inserted into the triangulation before it is refined.
+/// The points that are inserted into the triangulation before refinement.
 struct Initial_points {
   using Point_3 = Any_function_3::Point_3;
 
@@ -373,12 +374,12 @@ struct Initial_points {
   std::vector<Feature_balls::Segment> segments; ///< between balls that are neighbors on a feature
   std::vector<Point_3> seeds;                   ///< on the surface
   std::vector<Point_3> scaffold;                ///< away from the surface
-  std::vector<Point_3> omitted;                 ///< on features, but too near to others to become vertices
+  std::vector<Point_3> omitted;                 ///< on features, but too close to others to become vertices
   std::vector<CGAL::Bbox_3> undecided_boxes;    ///< where a part of the surface may have been missed
   bool has_features = false;
 };
 
-/// Appends a ball around a singular point of the surface, smaller than a facet and apart from the other balls, and
+/// Appends a ball around a singular point of the surface, smaller than a facet and disjoint from the other balls, and
 /// removes the seeds in and near it.
 inline void protect_singular_point(const Any_function_3::Point_3& p, double size, Initial_points& points) {
   double radius = 0.4 * size;
@@ -393,7 +394,7 @@ inline void protect_singular_point(const Any_function_3::Point_3& p, double size
 inline Initial_points find_initial_points(const Memoized_function_3& function, const Clip_domain_3& domain,
                                           double radius, const Facet_sizing_field& size,
                                           const std::vector<Feature_curve_3>& features) {
-  // Seeds keep these distances from vertices on features, so that the facets beside features can have good angles.
+  // Minimum distances of seeds from vertices on features, which allow good angles of the facets at features.
   constexpr double clearance_in_sizes = 0.7, clearance_in_radii = 1.7;
   const Feature_balls covered = cover_features(function, domain, radius, size, features);
   std::vector<Fixed_vertex_3<Any_function_3::Point_3>> vertices;

@@ -61,7 +61,7 @@ bool Column_numbers::shows_median(const Color_mapping& mapping) const {
 
 Column_numbers Numbers_of_mesh::operator()(const Vertex_attributes::Column& column) const {
   std::vector<double> roots;
-  if (column.name == "affine_area_density") { // a fourth root, which makes much of the rounding of its radicand
+  if (column.name == "affine_area_density") { // a fourth root, which magnifies the rounding of its radicand
     const double rounding = rounding_of_quantity("gaussian_curvature", diagonal_);
     for (const double value : column.values) roots.push_back(value * value * value * value <= rounding ? 0 : value);
   }

@@ -20,7 +20,7 @@ namespace {
 
 bool is_below(const Weighted_number& each, double number) { return each.number < number; }
 
-/// The numbers, growing away from zero, at which each step of their total weight is reached.
+/// The numbers, in order away from zero, at which each step of their total weight is reached.
 template <class Iterator>
 std::array<double, Equalization::steps> knots_of(Iterator begin, Iterator end, double greatest) {
   constexpr std::size_t steps = Equalization::steps;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Conversions from Oklab to sRGB, and the diverging and the sequential color map, which are made with it.
+// Conversion from Oklab to sRGB, and the diverging and the sequential color map in Oklab.
 #ifndef EQUIAFFINE_SRC_DISPLAY_OKLAB_H
 #define EQUIAFFINE_SRC_DISPLAY_OKLAB_H
 
@@ -11,8 +11,8 @@
 
 namespace equiaffine::internal {
 
-/// The linear sRGB components of an Oklab color given by lightness, chroma and hue in degrees, by Ottosson's matrices.
-/// They are outside [0, 1] when no screen shows the color.
+/// The linear sRGB components of an Oklab color given by lightness, chroma, and hue in degrees, by Ottosson's
+/// matrices. They are outside [0, 1] if the color is out of gamut.
 inline std::array<double, 3> linear_rgb_from_oklch(double lightness, double chroma, double hue) {
   constexpr double degree = 0.017453292519943295;
   const double a = chroma * std::cos(hue * degree), b = chroma * std::sin(hue * degree);
@@ -25,7 +25,7 @@ inline std::array<double, 3> linear_rgb_from_oklch(double lightness, double chro
           -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
 }
 
-/// The color of linear components, which are clamped to what a screen shows; the curve is that of IEC 61966-2-1.
+/// The sRGB color of linear components, which are clamped to the gamut, with the transfer function of IEC 61966-2-1.
 inline CGAL::IO::Color color_from_linear_rgb(const std::array<double, 3>& linear) {
   const auto byte = [](double x) {
     x = std::clamp(x, 0., 1.);
@@ -41,7 +41,7 @@ inline std::array<double, 3> diverging_linear_rgb(double t) {
   return linear_rgb_from_oklch(0.94 - 0.50 * u, 0.175 * u * (2 - u), t < 0 ? 262 : 27);
 }
 
-/// The sequential map: pale yellow at 0 through orange and magenta to dark violet at 1, with a lightness linear in t.
+/// The sequential map: pale yellow at 0 via orange and magenta to dark violet at 1, with a lightness linear in t.
 inline std::array<double, 3> sequential_linear_rgb(double t) {
   constexpr double pi = 3.141592653589793;
   return linear_rgb_from_oklch(0.95 - 0.65 * t, 0.06 + 0.08 * std::sin(pi * t) + 0.06 * t, 95 - 155 * t);

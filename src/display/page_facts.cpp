@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a page knows besides its arrays: the words of its columns, how their numbers become colors, and the colors.
+// The data of a page besides its arrays: the labels of its columns, the mappings from numbers to colors, and the
+// colors.
 #include "display/page_text.h"
 #include <equiaffine/attributes/internal/attribute_table.h>
 #include <equiaffine/base/internal/quantile.h>
@@ -28,7 +29,7 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// JSON has no number that does not exist, and null in its place.
+/// Writes null for a number that is not finite, because JSON cannot represent it.
 void write_number(std::ostream& json, double number) {
   if (std::isfinite(number)) json << number;
   else json << "null";
@@ -45,7 +46,7 @@ void write_numbers(std::ostream& json, const Range& numbers) {
   json << (separator[0] == '[' ? "[]" : "]");
 }
 
-/// The range for each clip step, with the scale that suits it, or one range if the mapping is given.
+/// Writes the range for each clip step, with the scale that suits it, or a single range if the mapping is given.
 void write_mapping(std::ostream& json, const Column_numbers& numbers, const Color_mapping* given) {
   const Equalization equalization = given ? given->equalization : numbers.equalization();
   const auto write_range = [&](const Color_mapping& mapping) {
@@ -65,7 +66,7 @@ void write_mapping(std::ostream& json, const Column_numbers& numbers, const Colo
   write_numbers(json, equalization.knots());
 }
 
-/// The error of the number in the column that is nearest to that one.
+/// The error of the column's number that is nearest to the given one.
 double error_nearest(double number, const Vertex_attributes::Column& column, const Vertex_attributes::Column& errors) {
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -77,8 +78,8 @@ double error_nearest(double number, const Vertex_attributes::Column& column, con
   return errors.values.empty() ? NAN : errors.values[nearest];
 }
 
-/// The least, median and greatest of the numbers that are known, each with its error if there is one, and the part that
-/// is not known.
+/// Writes the minimum, median, and maximum of the known numbers, each with its error if there is one, and the
+/// fraction of unknown numbers.
 void write_statistics(std::ostream& json, const Vertex_attributes::Column& column,
                       const Vertex_attributes::Column* errors, const Column_numbers& numbers) {
   json << ",\"unknown\":" << numbers.part_unknown() << ",\"statistics\":[";
@@ -92,7 +93,7 @@ void write_statistics(std::ostream& json, const Vertex_attributes::Column& colum
   json << ']';
 }
 
-/// Whether a column is a quantity of its own, and no part of a vector or of the metric.
+/// Whether a column is a quantity of its own, not a component of a vector or of the metric.
 bool is_quantity(const std::string& name, const Vertex_attributes& attributes) {
   if (name.starts_with("metric_") && name.size() == 9) return false;
   const char axis = name.empty() ? ' ' : name.back();
@@ -104,14 +105,14 @@ bool is_quantity(const std::string& name, const Vertex_attributes& attributes) {
                      [&](char other) { return find_column(attributes, stem + other) == nullptr; });
 }
 
-/// The numbers of the vertices in spots.
+/// Writes the numbers of the vertices in spots.
 void write_spots(std::ostream& json, const std::vector<double>& numbers, const Parabolic_parts& parabolic) {
   std::vector<double> spots;
   for (const std::uint32_t vertex : parabolic.spots()) spots.push_back(numbers[vertex]);
   write_numbers(json, spots);
 }
 
-/// The names of the columns, what the library knows about the quantities among them, and what their colors mean.
+/// Writes the names of the columns, the library's data on the quantities among them, and the mappings to colors.
 void write_column_facts(std::ostream& json, const Vertex_attributes& attributes, const Display_options& options,
                         const Numbers_of_mesh& numbers_of, const Parabolic_parts& parabolic) {
   const char* separator = "";
@@ -138,17 +139,17 @@ void write_column_facts(std::ostream& json, const Vertex_attributes& attributes,
   }
 }
 
-/// The colors of a map at `size` equally spaced places of [first, 1], as a JSON array.
+/// The colors of a map at `size` equally spaced positions in [first, 1], as a JSON array.
 template <class Function>
 std::string color_table(Function function, double first) {
-  constexpr int size = 257; // odd: zero is one of the places
+  constexpr int size = 257; // odd, so that zero is one of the positions
   std::string result = "[";
   for (int i = 0; i < size; ++i)
     result += (i == 0 ? "\"" : ",\"") + hexadecimal(function(first + (1 - first) * i / (size - 1))) + '"';
   return result + ']';
 }
 
-/// The words and colors of the statuses, as JSON.
+/// Writes the words and colors of the statuses as JSON.
 void write_status_facts(std::ostream& json) {
   for (std::size_t i = 0; i < number_of_point_statuses; ++i) {
     const auto status = static_cast<Point_status>(i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Texts, colors and bytes as they stand in a page.
+// Encodes texts, colors, and bytes for a page.
 #ifndef EQUIAFFINE_SRC_DISPLAY_PAGE_TEXT_H
 #define EQUIAFFINE_SRC_DISPLAY_PAGE_TEXT_H
 
@@ -13,7 +13,7 @@
 
 namespace equiaffine::internal {
 
-/// Text as it may stand in an element or an attribute of a page.
+/// Text escaped for an element or an attribute of a page.
 inline std::string html_escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -29,7 +29,7 @@ inline std::string html_escaped(std::string_view text) {
   return result;
 }
 
-/// A JSON string that may also stand inside a `<script>` element.
+/// A JSON string that is also safe inside a `<script>` element.
 inline std::string json_string(std::string_view text) {
   constexpr char digits[] = "0123456789abcdef";
   std::string result = "\"";
@@ -42,7 +42,7 @@ inline std::string json_string(std::string_view text) {
   return result + '"';
 }
 
-/// A color as CSS writes it: #rrggbb.
+/// A color in CSS notation: #rrggbb.
 inline std::string hexadecimal(const CGAL::IO::Color& color) {
   constexpr char digits[] = "0123456789abcdef";
   std::string result = "#";
@@ -51,7 +51,8 @@ inline std::string hexadecimal(const CGAL::IO::Color& color) {
   return result;
 }
 
-/// Writes bytes to a stream as base64 (RFC 4648, section 4, padded, without line breaks). Call `finish` once, last.
+/// Writes bytes to a stream as base64 (RFC 4648, section 4, padded, without line breaks). Call `finish` once at the
+/// end.
 class Base64_writer {
 public:
   explicit Base64_writer(std::ostream& out) : out_(out) { text_.reserve(buffer_size + 4); }
@@ -61,7 +62,7 @@ public:
     if (++bytes_in_group_ == 3) put_group();
   }
 
-  /// Puts the four bytes of a word, the least significant one first.
+  /// Writes the four bytes of a word, least significant byte first.
   void put_little_endian(std::uint32_t word) {
     for (int shift = 0; shift < 32; shift += 8) put(static_cast<std::uint8_t>(word >> shift));
   }

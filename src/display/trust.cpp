@@ -30,7 +30,7 @@ std::vector<double> sizes_of_numbers(const Vertex_attributes::Column& column, co
              K = number("affine_gaussian_curvature"), H = number("affine_mean_curvature"), J = number("pick_invariant");
   Local_structure_3<double> s{};
   for (std::size_t i = 0; i < sizes.size(); ++i) {
-    sizes[i] = std::abs(sizes[i]); // if there are no columns to make the size of
+    sizes[i] = std::abs(sizes[i]); // used if the columns to compute the size from are missing
     if (row == nullptr || !row->error.exists()) continue;
     s.euclidean.k1 = k1(i);
     s.euclidean.k2 = k2(i);
@@ -45,8 +45,8 @@ std::vector<double> sizes_of_numbers(const Vertex_attributes::Column& column, co
   return sizes;
 }
 
-double part_in_doubt(const Vertex_attributes::Column& column, const std::vector<double>& errors,
-                     const Vertex_attributes& attributes) {
+double unknown_fraction(const Vertex_attributes::Column& column, const std::vector<double>& errors,
+                        const Vertex_attributes& attributes) {
   const std::vector<double> sizes = sizes_of_numbers(column, attributes);
   std::size_t unknown = 0, all = 0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
@@ -61,18 +61,19 @@ std::vector<std::string> sentences_of_doubt(const Vertex_attributes& attributes)
   std::vector<std::string> sentences;
   for (const auto& column : attributes.columns) {
     const auto* errors = find_errors(attributes, column.name);
-    const double part = errors == nullptr ? 0 : part_in_doubt(column, errors->values, attributes);
+    const double part = errors == nullptr ? 0 : unknown_fraction(column, errors->values, attributes);
     if (!(part > 0.5)) continue;
     const Quantity* const quantity = find_quantity(column.name);
     sentences.push_back((quantity ? std::string(quantity->label) : column.name) + " is unknown at " +
-                        std::to_string(std::lround(100 * part)) + " % of the vertices: error above half of its size");
+                        std::to_string(std::lround(100 * part)) +
+                        " % of the vertices: its error exceeds half its size");
   }
   return sentences;
 }
 
 bool is_trusted(const Vertex_attributes::Column& column, const Vertex_attributes& attributes) {
   if (const auto* errors = find_errors(attributes, column.name))
-    return part_in_doubt(column, errors->values, attributes) <= 0.5;
+    return unknown_fraction(column, errors->values, attributes) <= 0.5;
   const auto is_affine = [](const auto& other) {
     const Quantity* const quantity = find_quantity(other.name);
     return quantity != nullptr && quantity->group == "Affine";

@@ -18,7 +18,7 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// Writes an array as an element of the page that holds its bytes in base64: `put_all(writer)` puts them.
+/// Writes an array as an element of the page with its bytes in base64, which `put_all(writer)` writes.
 template <class PutAll>
 void write_data_block(std::ostream& out, const std::string& id, PutAll put_all) {
   out << "<script type=\"text/plain\" id=\"" << id << "\">";
@@ -28,8 +28,8 @@ void write_data_block(std::ostream& out, const std::string& id, PutAll put_all) 
   out << "</script>\n";
 }
 
-/// Writes all arrays: positions relative to the center, triangles, status, parts (`Parabolic_part`, empty if no vertex
-/// is parabolic), and one per column.
+/// Writes all arrays: positions relative to the center, triangles, status, parts (`Parabolic_part`, empty if no
+/// vertex is parabolic), and one array per column.
 void write_data(std::ostream& out, const Page_surface& surface, const Vertex_attributes& attributes,
                 const Parabolic_parts& parabolic) {
   write_data_block(out, "positions", [&](Base64_writer& writer) {
@@ -54,7 +54,7 @@ void write_data(std::ostream& out, const Page_surface& surface, const Vertex_att
     });
 }
 
-/// The style, the elements and the description of the surface.
+/// Writes the style, the elements, and the description of the surface.
 void write_head_and_panel(std::ostream& out, const Display_options& options) {
   const std::string title = html_escaped(options.title);
   out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

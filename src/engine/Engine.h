@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The functions that engine_entry.cpp defines for one instruction set. The names of the entries are those of C, so that
-// the build can tell them from all else in the object files, see CMakeLists.txt.
+// The functions that engine_entry.cpp defines for one instruction set. The entry points have C linkage, so that the
+// build can recognize them in the object files (see CMakeLists.txt).
 #ifndef EQUIAFFINE_SRC_ENGINE_ENGINE_H
 #define EQUIAFFINE_SRC_ENGINE_ENGINE_H
 
@@ -11,7 +11,7 @@
 
 namespace equiaffine::vectorized {
 
-/// The functions for the level sets of one type.
+/// The functions for level sets of one type.
 template <class Function>
 struct Engine {
   using Level_set = Level_set_traits_3<Function>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The templates of the library, compiled for one instruction set.
+// The library's templates, compiled for one instruction set.
 #include "engine/Engine.h"
 #include <equiaffine/attributes/attributes.h>
 #include <equiaffine/marching_cubes/marching_cubes.h>

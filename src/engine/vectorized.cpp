@@ -13,7 +13,7 @@ template <class Function>
 const Engine<Function>& engine(Instruction_set set) {
   const auto sets = instruction_sets();
   check_argument(std::find(sets.begin(), sets.end(), set) != sets.end(),
-                 "this processor or this build does not have the instruction set: give one of instruction_sets()");
+                 "this instruction set is not supported by the processor or the build: use one of instruction_sets()");
 #ifdef EQUIAFFINE_WITH_AVX512
   if (set == Instruction_set::AVX512) return std::get<Engine<Function>>(*equiaffine_engines_avx512());
 #endif

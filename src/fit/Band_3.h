@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The band around the data in which the function of a fit is defined.
+// The band around the data where the function of a fit is defined.
 #ifndef EQUIAFFINE_SRC_FIT_BAND_3_H
 #define EQUIAFFINE_SRC_FIT_BAND_3_H
 
@@ -23,18 +23,18 @@
 
 namespace equiaffine::internal {
 
-/// The sector of the tangent plane at a point of the border of a surface where the surface does not go on:
-/// counterclockwise about the normal from one direction to another, both unit vectors.
+/// An empty sector of the tangent plane at a border point of a surface: counterclockwise about the normal between
+/// two unit vectors.
 class Border_gap_3 {
 public:
   using Vector = Eigen::Vector3d;
 
-  /// A sector without other points nearer than `radius` spacings is a gap if it is wider than this. At a point of a
-  /// random sample without border, some 44 points are so near, and a sector of a third of the plane is empty with the
-  /// chance 44 (2/3)^43 = 1e-6. A round hole has gaps if its radius is larger than this one.
+  /// A sector without other points within `radius` spacings is a gap if it is wider than this. Around a point of a
+  /// random sample without border, about 44 points are that close, and the probability that a sector of a third of
+  /// the plane is empty is 44 (2/3)^43 = 1e-6. A round hole has gaps if its radius is larger than this one.
   static constexpr double radius = 3.5, least_angle = 2 * std::numbers::pi / 3;
 
-  /// The widest sector without any of the vectors to other points, if it is a gap.
+  /// Returns the widest sector that contains none of the vectors to other points, if it is a gap.
   static std::optional<Border_gap_3> widest(const Vector& normal, const std::vector<Vector>& to_others) {
     const Vector x = normal.unitOrthogonal(), y = normal.cross(x);
     std::vector<std::pair<double, Vector>> directions;
@@ -56,7 +56,7 @@ public:
     return gap;
   }
 
-  /// The distance of a tangent vector in the sector from the sides of the sector; 0 elsewhere.
+  /// The distance of a tangent vector in the sector from the sides of the sector; 0 outside.
   double depth(const Vector& v) const {
     const auto is_left = [&](const Vector& from, const Vector& to) { return from.cross(to).dot(normal_) > 0; };
     const bool is_inside =
@@ -68,7 +68,6 @@ private:
   Border_gap_3(const Vector& normal, const Vector& first, const Vector& last, double width)
       : normal_(normal), first_(first), last_(last), is_convex_(width <= std::numbers::pi) {}
 
-  /// The distance of a vector from a ray.
   static double distance(const Vector& v, const Vector& direction) {
     return (v - std::max(0., v.dot(direction)) * direction).norm();
   }
@@ -77,33 +76,34 @@ private:
   bool is_convex_;
 };
 
-/// A point of the surface with its normal, the distance of the data around it, the height of the core there, and where
-/// the surface does not go on, if the point is on its border.
+/// A point of the surface with its normal, the spacing of the data around it, the height of the core, and the gap if
+/// it is on the border.
 struct Band_point_3 {
   Eigen::Vector3d point, normal;
   double spacing, core;
   std::optional<Border_gap_3> gap;
-  Charts_3::Index chart; ///< the smooth part of the surface
+  Charts_3::Index chart; ///< smooth part of the surface
 };
 
-/// The part of space near points of a surface: within 2 spacings of the nearest one along its normal, or within a
-/// margin that may be larger, within 1.25 spacings across, and no more than a quarter of a spacing beyond the border,
-/// since there polynomials are only extrapolated. Away from borders it is also what is within 1 spacing across of
-/// another one of the nearest points, where the density jumps. The core is a lower part of it.
+/// The region near points of a surface: within 2 spacings of the nearest point along its normal, or within a margin
+/// that may be larger, within 1.25 spacings across, and at most a quarter of a spacing beyond the border, where
+/// polynomials are only extrapolated. Away from borders, points within 1 spacing across of another nearby point
+/// belong to the band, too, because the density may jump. The core is a lower part of the band.
 class Band_3 {
 public:
   using Vector = Eigen::Vector3d;
 
-  /// The height over a smooth part of the surface, as of planes that are blended, and what is known there.
+  /// The height above a smooth part of the surface, a blend of planes, and associated means.
   struct Height {
     Charts_3::Index chart;
     double value = 0;
-    Vector gradient = Vector::Zero(); ///< the mean normal
+    Vector gradient = Vector::Zero(); ///< mean normal
     double spacing = 0, core = 0;     ///< means
-    double remoteness = 0;            ///< from 0 for the part of the nearest point to 1 where none of its points counts
+    double remoteness = 0;            ///< from 0 for the part of the nearest point to 1 for a part whose points have no
+                                      ///< weight
   };
 
-  /// Makes the band of a surface of which at most `most_at_point` smooth parts meet at a point.
+  /// At most `most_at_point` smooth parts of the surface meet at a point.
   explicit Band_3(std::vector<Band_point_3> points, std::size_t most_at_point = 1)
       : points_(std::move(points)), count_(std::clamp<std::size_t>(2 * most_at_point, 9, 64)) {
     std::vector<Vector> places;
@@ -116,7 +116,7 @@ public:
     balls_ = Ball_tree_3(places, reaches);
   }
 
-  /// Whether a point is in the band with its margin.
+  /// Whether a point is in the band widened by the margin.
   bool contains(const Vector& p, const Band_margin& margin) const {
     const auto nearest = tree_.nearest(p, 1);
     if (nearest.empty()) return false;
@@ -126,10 +126,10 @@ public:
            std::any_of(feet.begin(), feet.end(), [&](auto i) { return contains(p, points_[i], 1, margin); });
   }
 
-  /// Returns the heights over the smooth parts that the nearest points belong to, that of the very nearest first: means
-  /// of the heights over the tangent planes at these points, with the weights ((R - d) / (R d))^2, where R is the
-  /// distance of the next nearest one, so that the mean is continuous (Renka, Multivariate interpolation of large sets
-  /// of scattered data, 1988, with planes in place of quadratic functions).
+  /// Returns the heights above the smooth parts of the nearest points, that of the nearest point first. A height is
+  /// the mean of the heights above the tangent planes at these points, with weights ((R - d) / (R d))^2, where R is
+  /// the distance of the next nearest point. This makes the mean continuous (Renka, Multivariate interpolation of
+  /// large sets of scattered data, 1988, with planes instead of quadratic functions).
   /// \pre the band has points.
   std::vector<Height> heights(const Vector& p) const {
     const std::vector<Foot> feet = nearest_feet(p);
@@ -144,7 +144,7 @@ public:
         if (own_chart != chart) continue;
         if (sum == 0 && !std::isinf(reach) && reach > nearest)
           height.remoteness = std::min((distance - nearest) / (reach - nearest), 1 - 1e-9);
-        const double least = 1e-6 * spacing, d = std::max(distance, least); // a point has its own plane
+        const double least = 1e-6 * spacing, d = std::max(distance, least); // at a point its own plane dominates
         const double root = (std::isinf(reach) ? 1 : std::max(1e-9, (reach - d) / reach)) / d, weight = root * root;
         height.value += weight * (p - point).dot(normal);
         height.gradient += weight * normal;
@@ -157,8 +157,8 @@ public:
     return result;
   }
 
-  /// Returns a point moved along the normal of the nearest point of the surface into the tangent plane there; the same
-  /// point if the band has none.
+  /// Returns a point moved along the normal of the nearest surface point into the tangent plane there; the same
+  /// point if the band has no points.
   Vector on_tangent_plane(const Vector& p) const {
     const auto nearest = tree_.nearest(p, 1);
     if (nearest.empty()) return p;
@@ -166,16 +166,16 @@ public:
     return p - (p - foot.point).dot(foot.normal) * foot.normal;
   }
 
-  /// The distance of the data around the nearest point of the surface. \pre The band has points.
+  /// The spacing of the data around the nearest point of the surface. \pre The band has points.
   double spacing(const Vector& p) const { return points_[tree_.nearest(p, 1).front()].spacing; }
 
-  /// Returns whether some point of a box, given by its corners, may be in the band.
+  /// Returns whether the band may contain a point of a box, given by its corners.
   bool may_meet(const Vector& lower, const Vector& upper, const Band_margin& margin) const {
     const Vector half = Vector::Constant(std::hypot(1, margin.slope) * margin.height);
     return balls_.meets(lower - half, upper + half);
   }
 
-  /// Returns the box of the core in the coordinates of the data.
+  /// Returns the bounding box of the core in the coordinates of the data.
   CGAL::Bbox_3 box(const Normalization_3& normalization) const {
     CGAL::Bbox_3 box;
     const Eigen::Matrix3d inverse = normalization.matrix.inverse();
@@ -207,7 +207,7 @@ private:
     double distance;
   };
 
-  /// The nearest points, the nearest first.
+  /// The nearest points, sorted by distance.
   std::vector<Foot> nearest_feet(const Vector& p) const {
     std::vector<Foot> feet;
     for (const auto i : tree_.nearest(p, count_)) feet.push_back({i, (p - points_[i].point).norm()});
@@ -226,7 +226,7 @@ private:
   }
 
   std::vector<Band_point_3> points_;
-  std::size_t count_; ///< of the nearest points that are considered: 9, or more for corners of many parts
+  std::size_t count_; ///< number of nearest points considered: 9, or more for corners of many parts
   Point_tree_3 tree_;
   Ball_tree_3 balls_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The function of a fit: a blend of polynomials that are fitted to parts of the data.
+// The function of a fit: a blend of polynomials fitted to parts of the data.
 #ifndef EQUIAFFINE_SRC_FIT_BLEND_3_H
 #define EQUIAFFINE_SRC_FIT_BLEND_3_H
 
@@ -24,15 +24,16 @@
 
 namespace equiaffine::internal {
 
-/// The mean of the patches around a point with weights (1 - |p - c|^2 / R^2)^6 / R^8, where c is the center of a patch
-/// and R a part of its radius. By the factor 1 / R^8 small patches, which are more accurate, dominate where those of
-/// sparser data overlap with them. Derivatives are means with the same weights, as if these were constant: the diffuse
-/// derivatives of Nayroles, Touzot and Villon (1992). Those of the weights would only add what patches disagree on,
-/// divided by powers of R. Each smooth part of the surface has patches of its own.
+/// The mean of the patches around a point with weights (1 - |p - c|^2 / R^2)^6 / R^8, where c is the center of a
+/// patch and R a fraction of its radius. Because of the factor 1 / R^8, small patches, which are more accurate,
+/// dominate where they overlap with those of sparser data. Derivatives are means with the same weights, as if these
+/// were constant: the diffuse derivatives of Nayroles, Touzot and Villon (1992). The derivatives of the weights
+/// would only add the disagreement of the patches divided by powers of R. Each smooth part of the surface has its
+/// own patches.
 ///
-/// Another sheet of a part may lie within R. Since a patch of that sheet must not influence this one, its weight is
-/// multiplied by (1 - (g / b)^2)^6, where g is its value and b is a part of the distance from its center to the nearest
-/// point that is not connected with it.
+/// Another sheet of a part may lie within R, but its patches must not influence this one. Therefore the weight of a
+/// patch is multiplied by (1 - (g / b)^2)^6, where g is its value and b is a fraction of the distance from its
+/// center to the nearest point that is not connected with it.
 class Patches_3 {
 public:
   using Vector = Eigen::Vector3d;
@@ -57,7 +58,7 @@ public:
     balls_ = Ball_tree_3(places, radii_);
   }
 
-  /// The least radius of the fits that are blended at a point; infinity where there is none.
+  /// The smallest radius of the fits blended at a point; infinity if there are none.
   double least_radius(const Vector& p, Charts_3::Index chart) const {
     double least = std::numeric_limits<double>::infinity();
     for_each_weight(p, chart,
@@ -65,14 +66,14 @@ public:
     return least;
   }
 
-  /// A mean, and how far inside a patch the point is: 1 at its center, 0 where patches end.
+  /// A mean, and the depth of the point in the patches: 1 at a center, 0 where patches end.
   template <class T>
   struct Mean {
     T value;
     double depth;
   };
 
-  /// The value, as far as patches reach; not a number without patches.
+  /// The mean value; NaN without patches.
   Mean<double> value(const Vector& p, Charts_3::Index chart) const {
     double sum = 0, weights = 0, depth = 0;
     for_each_weight(p, chart, [&](std::size_t, double weight, double g, double root) {
@@ -83,7 +84,7 @@ public:
     return {sum / weights, depth};
   }
 
-  /// The expansion, as far as patches reach.
+  /// The mean expansion; NaN without patches.
   template <int Order>
   Mean<Jet_3<double, Order>> taylor(const Vector& p, Charts_3::Index chart) const {
     Jet_3<double, Order> sum(0.);
@@ -96,9 +97,9 @@ public:
     return {sum * (1 / weights), depth};
   }
 
-  /// The accuracy of an expansion at a point: geometric means of the errors of the fits that are blended there, since
-  /// these differ by orders of magnitude where K_e is about 0 for some of the fits. Where the curvatures of the
-  /// expansion are larger than those of the fits, they are as uncertain relative to their own size.
+  /// The accuracy of an expansion at a point: geometric means of the errors of the fits blended there, because these
+  /// differ by orders of magnitude where K_e is about 0 for some fits. Where the curvatures of the expansion are
+  /// larger than those of the fits, the relative errors are kept.
   Fit_accuracy accuracy(const Vector& p, const Jet_3<double>& jet, Charts_3::Index chart) const {
     constexpr Eigen::Index n = number_of_fitted_numbers;
     using Numbers = Eigen::Array<double, 4 * n + 1, 1>;
@@ -114,7 +115,7 @@ public:
     });
     Numbers mean = (sum / weights).exp();
     for (double& number : mean)
-      if (number < std::numeric_limits<double>::min()) number = 0; // the exponential of minus infinity is not quite 0
+      if (number < std::numeric_limits<double>::min()) number = 0; // the exponential of minus infinity is not exactly 0
     const Number_errors factor = (mean.segment<n>(3 * n) / Fitted_numbers(jet).sizes()).max(1);
     return {mean.segment<n>(0) * factor, mean.segment<n>(n) * factor, mean.segment<n>(2 * n) * factor, least,
             mean[4 * n]};
@@ -123,11 +124,11 @@ public:
 private:
   static constexpr double reach = 0.5, distance_of_centers = 0.4, safety = 0.7;
 
-  /// Weights fall with this power of the radius, so that small fits dominate: on a bowl whose density jumps by ten,
-  /// that took the error of K beside the jump from 1e-2 to 3e-6.
+  /// Weights decrease with this power of the radius, so small fits dominate: on a bowl whose density jumps by ten,
+  /// this reduced the error of K near the jump from 1e-2 to 3e-6.
   static constexpr double power_of_radius = 8;
 
-  /// Calls f(k, weight, value, depth) for the patches k of a smooth part that have a weight at a point.
+  /// Calls f(k, weight, value, depth) for the patches k of a smooth part with a positive weight at a point.
   template <class F>
   void for_each_weight(const Vector& p, Charts_3::Index chart, const F& f) const {
     balls_.for_each_around(p, [&](std::size_t k) {
@@ -159,11 +160,11 @@ private:
   Ball_tree_3 balls_;
 };
 
-/// One function from many patches, defined near its zero set beside the data only, in a band with a margin as large as
-/// it is asked for. Above the core of the band the data do not determine the polynomials, and where these are far from
-/// the height over the surface they are wrong: the value becomes that height there, continuously, and first derivatives
-/// become those of the height. Each smooth part between creases has a function of its own; where parts meet, their
-/// values are combined as a solid is from half-spaces, see Charts_3.
+/// One function from many patches, defined only near the part of its zero set that is close to the data: in a band,
+/// with a margin as requested. Above the core of the band the data do not determine the polynomials. Where these
+/// differ too much from the height above the surface, they are wrong, and the value changes continuously to that
+/// height, as do first derivatives. Each smooth part between creases has its own function. Where parts meet, their
+/// values are combined like those of half-spaces of a solid, see Charts_3.
 class Blend_3 {
 public:
   using Vector = Eigen::Vector3d;
@@ -180,8 +181,8 @@ public:
     return heights.size() == 1 ? value_of_part(p, heights.front()) : choice(p, heights).value;
   }
 
-  /// The expansion at a point: to first order in the band, to a higher one where the value is that of polynomials
-  /// alone. A value that fades has the derivatives that it has without.
+  /// The expansion at a point: to first order in the whole band, to a higher order where the value is that of
+  /// polynomials alone. Fading does not change derivatives.
   template <int Order>
   Jet_3<double, Order> taylor(const Vector& p) const {
     using Jet = Jet_3<double, Order>;
@@ -200,26 +201,26 @@ public:
   }
 
 private:
-  /// Feet may be farther apart than the data are. A spacing of this part of their distance makes a band that reaches
-  /// 0.75 of it across: the middle of three feet, at 0.58 of it if they are equally far apart, is in the band.
+  /// Feet can be farther apart than the data. With a spacing of this fraction of their distance, the band extends by
+  /// 0.75 of the distance across, so the middle of three equidistant feet, at 0.58, is in the band.
   static constexpr double part_of_gap = 0.6;
 
-  /// From this part of the height of the core on, the value is the height alone; above the core, it is so in part.
+  /// From this multiple of the height of the core on, the value is the height alone; above the core, it is a
+  /// mixture.
   static constexpr double top = 1.5;
 
-  /// Parts that are less remote than this have their own value, see Band_3::Height.
+  /// Parts less remote than this have their own value without fading, see Band_3::Height.
   static constexpr double near = 0.7;
 
   static bool is_above_core(const Band_3::Height& height) { return !(std::abs(height.value) < top * height.core); }
 
-  /// A polynomial of x that goes from 0 at a to 1 at b with slope 0.
   static double smooth_step(double a, double b, double x) {
     const double t = std::clamp((x - a) / (b - a), 0., 1.);
     return t * t * (3 - 2 * t);
   }
 
-  /// The weight of the height beside the value of the polynomials: 0 in the core if the two about agree, 1 above it,
-  /// where they differ by 0.8 of the distance of the data, and where patches end.
+  /// The weight of the height against the value of the polynomials: 0 in the core if both nearly agree; 1 above the
+  /// core, where they differ by 0.8 spacings, and where patches end.
   static double part_of_height(const Patches_3::Mean<double>& mean, const Band_3::Height& height) {
     const auto& [value, depth] = mean;
     if (!std::isfinite(value) || is_above_core(height)) return 1;
@@ -227,7 +228,7 @@ private:
     return 1 - smooth_step(0, 0.1, depth) * agreement * smooth_step(top, 1, std::abs(height.value) / height.core);
   }
 
-  /// The value of the function of a smooth part.
+  /// The value of the function of one smooth part.
   double value_of_part(const Vector& p, const Band_3::Height& height) const {
     if (is_above_core(height)) return height.value;
     const auto mean = patches_.value(p, height.chart);
@@ -235,7 +236,7 @@ private:
     return part < 1 ? (1 - part) * mean.value + part * height.value : height.value;
   }
 
-  /// The expansion of the function of a smooth part.
+  /// The expansion of the function of one smooth part.
   template <int Order>
   Jet_3<double, Order> taylor_of_part(const Vector& p, const Band_3::Height& height) const {
     using Jet = Jet_3<double, Order>;
@@ -252,7 +253,7 @@ private:
     }
   }
 
-  /// The part whose value is that of the function, and what fading adds to it.
+  /// The part that determines the value of the function, and the term added by fading.
   Charts_3::Choice choice(const Vector& p, const std::vector<Band_3::Height>& heights) const {
     std::vector<Charts_3::Part_value> values;
     for (const Band_3::Height& height : heights) {
@@ -262,7 +263,7 @@ private:
     return charts_.combined(values);
   }
 
-  /// The points of the zero set beside the data.
+  /// The points of the zero set near the data.
   std::vector<Band_point_3> feet(bool in_threads, const Data_points_3& data) const {
     std::vector<std::optional<Band_point_3>> found(data.size());
     parallel_for(
@@ -295,11 +296,11 @@ private:
     return result;
   }
 
-  /// A datum whose foot is not found is one itself, with the least core around, if at least half of its neighbors have
-  /// feet, or without a core if it is of a part between creases that has too few points for any. Others, such as points
-  /// away from the surface or without a normal, make no part of it.
+  /// A data point without a foot becomes its own foot, with the smallest core around it, if at least half of its
+  /// neighbors have feet. It has no core if it belongs to a part between creases that has too few points for any
+  /// foot. Other such points, for example off the surface or without a normal, are left out.
   static void fill_holes(const Data_points_3& data, std::vector<std::optional<Band_point_3>>& feet) {
-    std::vector<char> has_feet(data.size()); // of parts
+    std::vector<char> has_feet(data.size()); // per part
     for (std::size_t i = 0; i < data.size(); ++i)
       if (feet[i]) has_feet[data.charts.of(i)] = 1;
     std::vector<std::pair<Data_points_3::Index, double>> filled; // with their cores
@@ -318,8 +319,8 @@ private:
       feet[i] = {data.points[i], data.normals[i], data.spacing[i], core, {}, data.charts.of(i)};
   }
 
-  /// Returns the gap beside the foot of a point where the surface does not go on, if there is one: neither a neighbor
-  /// nor another point nearby is there. At a crease the surface goes on as another part.
+  /// Returns the gap at the foot of a border point, if there is one: a sector with neither a neighbor nor another
+  /// point nearby. At a crease the surface continues as another part.
   static std::optional<Border_gap_3> gap(const Data_points_3& data,
                                          const std::vector<std::optional<Band_point_3>>& feet, Data_points_3::Index i) {
     if (!feet[i] || data.charts.has_crease_at(i)) return {};
@@ -333,8 +334,8 @@ private:
     return Border_gap_3::widest(feet[i]->normal, to_others);
   }
 
-  /// The greatest part of a height, halved up to three times, up to which values are about the height on both sides.
-  /// Data on flat parts determine little of a fit above them.
+  /// The largest fraction of a height, halved up to three times, up to which values approximate the height on both
+  /// sides. Data on flat parts determine little of a fit above them.
   double sound_height(const Vector& foot, const Vector& normal, Charts_3::Index chart, double height) const {
     const auto is_sound = [&](double h) { return patches_.value(foot + h * normal, chart).value / h > 0.5; };
     const double least = height / 8;

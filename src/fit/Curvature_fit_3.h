@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits polynomials around one point as a way to fit says, and estimates the errors of their curvatures.
+// Fits polynomials around one point, and estimates the errors of their curvatures.
 #ifndef EQUIAFFINE_SRC_FIT_CURVATURE_FIT_3_H
 #define EQUIAFFINE_SRC_FIT_CURVATURE_FIT_3_H
 
@@ -20,12 +20,12 @@
 
 namespace equiaffine::internal {
 
-/// A fit, or a mean of fits, is known to within these errors, parts of the sizes of its numbers.
+/// The accuracy of a fit, or of a mean of fits. Errors are relative to the sizes of the numbers.
 struct Fit_accuracy {
-  Number_errors error;  ///< the whole estimate of the error of what the fit stands for
-  Number_errors noise;  ///< two standard deviations of what noise alone makes
-  Number_errors detail; ///< at a scale: what residuals make that have more than noise; else the error
-  double radius;        ///< of the ball whose points were fitted
+  Number_errors error;  ///< estimated total error of the quantity that the fit stands for
+  Number_errors noise;  ///< two standard deviations due to noise alone
+  Number_errors detail; ///< at a scale: effect of residuals larger than noise; else the error
+  double radius;        ///< of the fitted ball
   double deviation;     ///< of one point from any smooth surface
 };
 
@@ -35,8 +35,9 @@ struct Curvature_fit_3 {
   Fit_accuracy accuracy;
 };
 
-/// Fits polynomials of degrees of a family. Where the ball has too few points for all, as at a border of the surface,
-/// it grows. Where they do not determine a polynomial, since they fill a small part of the ball only, it shrinks.
+/// Fits polynomials of several degrees of a family. The ball grows where it has too few points for all degrees, as
+/// at a border of the surface. It shrinks where its points do not determine a polynomial because they fill only a
+/// small part of it.
 inline std::vector<Local_fit_3> fit_in_way(const Data_points_3& data, Data_points_3::Index center, double radius,
                                            const Way_to_fit& way, std::span<const int> degrees,
                                            const Number_request& request) {
@@ -54,13 +55,13 @@ inline std::vector<Local_fit_3> fit_in_way(const Data_points_3& data, Data_point
   return fits;
 }
 
-/// The error of K is the difference of degrees that is typical around with this power, and the difference at the point
-/// itself with the rest, but at least the latter, which is small by chance at some points.
+/// The error of K is the typical difference between degrees around the point to this power, times the difference at
+/// the point to the complementary power, but at least the latter, which is small by chance at some points.
 constexpr double power_of_level = 0.88;
 
-/// The accuracy of the greater of two degrees on exact data. A ball 1.35 times smaller, whose error is some five times
-/// less, tells the error of this one, unless both happen to agree; residuals are what polynomials leave out and not
-/// noise, which matters in part.
+/// The accuracy of the higher of two degrees on exact data. A ball smaller by 1.35, whose error is about five times
+/// smaller, gives the error of this one, unless both agree by chance. Residuals are approximation errors rather than
+/// noise, and count in part.
 inline Fit_accuracy exact_accuracy(const Local_fit_3& fit, const Local_fit_3& lower, const Local_fit_3& smaller,
                                    double noise) {
   constexpr double part_of_difference = 0.12, part_of_residual = 0.75;
@@ -80,9 +81,9 @@ inline Fit_accuracy exact_accuracy(const Local_fit_3& fit, const Local_fit_3& lo
   return accuracy;
 }
 
-/// The accuracy of the surface's own curvatures, from the difference to another degree and the standard deviation.
-/// `spacing` is that of the points, `growth` the ratio of the radius to the chosen one: it is larger at borders, where
-/// differences of degrees say less.
+/// The accuracy of the curvatures of the surface itself, from the difference to another degree and the standard
+/// deviation. `spacing` is that of the points. `growth` is the ratio of the radius to the chosen one, larger at
+/// borders, where differences between degrees are less reliable.
 inline Fit_accuracy own_accuracy(const Local_fit_3& fit, const Local_fit_3& other, const Fit_choice& choice,
                                  bool has_noise, double spacing, double growth) {
   const Number_estimates& estimates = *fit.estimates;
@@ -94,7 +95,7 @@ inline Fit_accuracy own_accuracy(const Local_fit_3& fit, const Local_fit_3& othe
   const bool has_other = &other != &fit; // a ball at a border may have points for one degree only
   if (has_other)
     of_gaussian = std::max(here, std::pow(of_gaussian, power_of_level) * std::pow(here, 1 - power_of_level));
-  // Noise that is given counts as it is, whatever the residuals are.
+  // Noise given by the user counts as it is, regardless of the residuals.
   const double factor = has_noise && fit.residual > 0 ? choice.noise / fit.residual : 1;
   const Number_errors deviations = std::max(guard(fit, choice.noise), factor) * estimates.of_residual / sizes;
   Fit_accuracy accuracy;
@@ -106,7 +107,7 @@ inline Fit_accuracy own_accuracy(const Local_fit_3& fit, const Local_fit_3& othe
   return accuracy;
 }
 
-/// The accuracy of curvatures at a scale, which noise and sampling alone make wrong.
+/// The accuracy of curvatures at a scale, where only noise and sampling cause errors.
 inline Fit_accuracy accuracy_at_scale(const Local_fit_3& fit, double noise) {
   const Number_estimates& estimates = *fit.estimates;
   const Number_errors sizes = estimates.numbers.sizes();
@@ -118,12 +119,13 @@ inline Fit_accuracy accuracy_at_scale(const Local_fit_3& fit, double noise) {
   return accuracy;
 }
 
-/// Returns the difference to the next degree, as parts of the sizes of the numbers, where the data are nearly exact: it
-/// is what a scale mixes. Noise would explain it elsewhere. The curvature jumps at the joint of a sphere and a
-/// cylinder, say, without a crease.
+/// Returns the difference to the next degree, relative to the sizes of the numbers, where the data are nearly exact;
+/// noise would explain it elsewhere. It measures what a scale mixes, for example the jump of the curvature at a
+/// smooth joint of a sphere and a cylinder.
 inline Number_errors mixture_at_scale(const Data_points_3& data, Data_points_3::Index center, const Way_to_fit& way,
                                       const Local_fit_3& fit, const Number_request& request) {
-  constexpr double nearly_exact = 0.01, quiet_part = 0.25; // of the spacing, and of the points of the ball
+  constexpr double nearly_exact = 0.01, quiet_part = 0.25; // relative to the spacing, and to the number of points of
+                                                           // the ball
   std::vector<double> noise;
   for (const auto i : connected_ball(data, center, fit.patch.radius)) noise.push_back(request.noise[i]);
   const auto quiet = noise.begin() + std::ptrdiff_t(quiet_part * double(noise.size()));
@@ -135,12 +137,13 @@ inline Number_errors mixture_at_scale(const Data_points_3& data, Data_points_3::
   return errors_or_all(relative_difference(fit.estimates->numbers, fits.back().estimates->numbers));
 }
 
-/// A fit gives numbers near its center, where the greater of two degrees answers exact data, or it is part of a blend,
-/// which reaches half of the radius away and takes the lower degree.
+/// A fit gives numbers near its center, where exact data use the higher of two degrees, or it is part of a blend,
+/// which extends to half of the radius and uses the lower degree.
 enum class Fit_use { NUMBERS, BLEND };
 
-/// The fit of the greater degree to exact data, if its K is known better than with the accuracy `lower` of the other.
-/// Returns nothing where the fit of the lower degree allows K_e = 0: its curvatures are small on flat parts.
+/// The fit of the higher degree to exact data, if it gives K more accurately than the accuracy `lower` of the other
+/// fit. Returns nothing where the fit of the lower degree is consistent with K_e = 0: its curvatures are small on
+/// flat parts.
 inline std::optional<Curvature_fit_3> exact_fit(const Data_points_3& data, Data_points_3::Index center,
                                                 const Way_to_fit& way, const Number_request& request,
                                                 const std::vector<Local_fit_3>& fits, const Fit_accuracy& lower) {
@@ -159,8 +162,8 @@ inline std::optional<Curvature_fit_3> exact_fit(const Data_points_3& data, Data_
   return Curvature_fit_3{fit.patch, fit.estimates->numbers, accuracy};
 }
 
-/// Fits the points around a center. Nothing is known where the degree had to be lower, as at a corner of a border, nor
-/// at a scale where the ball had to have another radius.
+/// Fits the points around a center. The errors are infinite where the degree had to be reduced, as at a corner of a
+/// border, and at a scale where the radius of the ball had to change.
 inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, Data_points_3::Index center,
                                                     const Fit_choice& choice, const Fit_choices_3& choices,
                                                     Fit_use use) {
@@ -194,17 +197,18 @@ inline std::optional<Curvature_fit_3> curvature_fit(const Data_points_3& data, D
   return Curvature_fit_3{std::move(fit.patch), fit.estimates->numbers, accuracy};
 }
 
-/// Fits at centers so dense that every point has one near by.
+/// Fits at centers so dense that every point is close to one.
 struct Patch_cover_3 {
   using Index = Data_points_3::Index;
   static constexpr Index none = std::numeric_limits<Index>::max();
 
   std::vector<Index> centers;
-  std::vector<std::optional<Curvature_fit_3>> fits; ///< one for each center, if there is one
-  std::vector<Index> nearest; ///< for each point the position of its center in `centers`, or `none` without a fit
+  std::vector<std::optional<Curvature_fit_3>> fits; ///< one per center, if it exists
+  std::vector<Index> nearest; ///< per point, the position of its center in `centers`, or `none` without a fit
 };
 
-/// Chooses centers in random order, unless another is nearer than `part` of the radius of its fit, and fits there.
+/// Chooses centers in random order that are no closer to each other than `part` of the radius of a fit, and fits
+/// there.
 inline Patch_cover_3 patch_cover(bool in_threads, const Data_points_3& data, const Fit_choices_3& choices, Fit_use use,
                                  double part) {
   using Index = Data_points_3::Index;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The points that are fitted, with normals and neighbors, searches among them, and the coordinates that fits use.
+// The points to fit, with normals and neighbors, searches among them, and normalized coordinates.
 #ifndef EQUIAFFINE_SRC_FIT_DATA_POINTS_3_H
 #define EQUIAFFINE_SRC_FIT_DATA_POINTS_3_H
 
@@ -27,18 +27,19 @@
 
 namespace equiaffine::internal {
 
-/// Points of a surface, with unit normals and the graph that says which are neighbors of each other.
+/// Points of a surface with unit normals and a neighborhood graph.
 struct Data_points_3 {
   using Vector = Eigen::Vector3d;
   using Index = std::uint32_t;
   using Edge = std::pair<Index, Index>;
 
   std::vector<Vector> points, normals;
-  std::vector<std::size_t> first_neighbor; ///< one for every point, and one more
+  std::vector<std::size_t> first_neighbor; ///< one per point, and one more
   std::vector<Index> neighbors;
-  std::vector<double> spacing;    ///< the typical distance of neighbors around a point
-  Charts_3 charts;                ///< the parts between creases
-  std::vector<char> is_at_border; ///< within a spacing of it, for each point; empty if not known, as without faces
+  std::vector<double> spacing;    ///< typical distance of neighbors around a point
+  Charts_3 charts;                ///< parts between creases
+  std::vector<char> is_at_border; ///< per point, whether it is within a spacing of the border; empty if unknown, as
+                                  ///< without faces
 
   std::size_t size() const { return points.size(); }
   std::span<const Index> neighbors_of(Index i) const {
@@ -46,7 +47,7 @@ struct Data_points_3 {
   }
 };
 
-/// Sets the neighbors from edges, each of which may come several times and in both directions.
+/// Sets the neighbors from edges, which may occur several times and in both directions.
 inline void set_neighbors(Data_points_3& data, std::vector<Data_points_3::Edge> edges) {
   const std::size_t count = edges.size();
   for (std::size_t e = 0; e < count; ++e) edges.emplace_back(edges[e].second, edges[e].first);
@@ -62,7 +63,7 @@ inline void set_neighbors(Data_points_3& data, std::vector<Data_points_3::Edge> 
   for (std::size_t i = 0; i < data.size(); ++i) data.first_neighbor[i + 1] += data.first_neighbor[i];
 }
 
-/// Sets the spacing: `factor` times the mean distance to the neighbors, averaged over what can be reached in six steps,
+/// Sets the spacing to `factor` times the mean distance to the neighbors, averaged over the points within six steps,
 /// so that it changes gradually.
 inline void set_spacing(Data_points_3& data, double factor) {
   data.spacing.assign(data.size(), 0);
@@ -89,7 +90,7 @@ std::vector<T> elements_at(const std::vector<T>& elements, const std::vector<Dat
   return result;
 }
 
-/// Which points a search has met. Each thread keeps one, since a search meets few of the points.
+/// The points that a search has visited. Each thread reuses one array, because a search visits few of the points.
 class Visited_points {
 public:
   explicit Visited_points(std::size_t size) {
@@ -99,7 +100,7 @@ public:
     now_ = 1;
   }
 
-  /// Returns whether this is the first time.
+  /// Returns whether this is the first visit.
   bool insert(Data_points_3::Index i) { return std::exchange(marks_[i], now_) != now_; }
 
 private:
@@ -107,9 +108,9 @@ private:
   static inline thread_local std::uint32_t now_ = 0;
 };
 
-/// Returns the points in the ball of the given radius around point `center` that are connected with it inside the ball,
-/// the center first, so that another sheet of the surface close by does not come in. A point to which `admits(i)` is
-/// false blocks the way.
+/// Returns the points in the ball around point `center` that are connected with it inside the ball, the center
+/// first. This excludes another sheet of the surface close by. The search does not pass points where `admits(i)` is
+/// false.
 template <class Admits>
 std::vector<Data_points_3::Index> connected_ball(const Data_points_3& data, Data_points_3::Index center, double radius,
                                                  Admits admits) {
@@ -128,10 +129,8 @@ inline std::vector<Data_points_3::Index> connected_ball(const Data_points_3& dat
   return connected_ball(data, center, radius, [](Data_points_3::Index) { return true; });
 }
 
-/// Finds the nearest of data.
 using Point_tree_3 = Point_tree<3, Data_points_3::Index>;
 
-/// Finds the balls that contain a point.
 class Ball_tree_3 {
 public:
   using Index = Data_points_3::Index;
@@ -153,7 +152,7 @@ public:
     for (auto it = tree_.qbegin(boost::geometry::index::intersects(corner(p))); it != tree_.qend(); ++it) f(it->second);
   }
 
-  /// Returns whether the bounding box of a ball meets the box with these corners.
+  /// Returns whether the bounding box of a ball intersects the box with these corners.
   bool meets(const Eigen::Vector3d& lower, const Eigen::Vector3d& upper) const {
     return tree_.qbegin(boost::geometry::index::intersects(Box(corner(lower), corner(upper)))) != tree_.qend();
   }
@@ -169,11 +168,11 @@ private:
   Tree tree_;
 };
 
-/// The affine map to coordinates in which the edges e between neighbors have no preferred direction: the sum of
-/// e e^T is a multiple of the identity, with edges of length 1 on average. An affine image of the points has the same
-/// coordinates but for a rotation.
+/// The affine map to normalized coordinates, in which the edges e between neighbors have no preferred direction: the
+/// sum of e e^T is a multiple of the identity, and edges have length 1 on average. An affine image of the points has
+/// the same coordinates up to a rotation.
 ///
-/// Edges and not points, since points that are spread evenly over a surface keep even distances.
+/// This uses edges instead of points so that points spread evenly over a surface keep even distances.
 struct Normalization_3 {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -182,24 +181,24 @@ struct Normalization_3 {
 
   Eigen::Vector3d inverse(const Eigen::Vector3d& p) const { return origin + matrix.inverse() * p; }
 
-  /// The factor of lengths that has the effect on volumes that the map has.
+  /// The scaling of lengths that changes volumes like the map.
   double scale() const { return std::cbrt(matrix.determinant()); }
 
-  /// The factors of lengths in the directions that are stretched most and least.
+  /// The factors of lengths in the directions of largest and smallest stretch.
   double greatest_stretch() const { return matrix.operatorNorm(); }
   double least_stretch() const { return 1 / matrix.inverse().operatorNorm(); }
 };
 
 /// The symmetric matrix to coordinates in which the sum of e e^T over all edges e of all stars has no preferred
-/// direction and the edges have length 1 on average. Directions in which the edges are a thousand times as short as in
-/// others, as for points in a plane, are stretched no further.
+/// direction, and edges have length 1 on average. The stretch of directions in which edges are shorter than in
+/// others is limited to a thousand, as for points in a plane.
 ///
-/// An edge counts as three times as long as the lower quartile of its star at most, so that long triangles, as along a
-/// cylinder, do not decide, while sparse parts of the data do.
+/// An edge counts as at most three times as long as the lower quartile of its star. This bounds the influence of
+/// long triangles, as along a cylinder, but keeps that of sparse parts of the data.
 inline Eigen::Matrix3d whitening_of(const std::vector<std::vector<Eigen::Vector3d>>& stars) {
   constexpr int steps = 20;
   constexpr double most = 3, least_length = 1e-3;
-  Eigen::Matrix3d whitening = Eigen::Matrix3d::Zero(); // all lengths are 0 at first, and no edge is too long
+  Eigen::Matrix3d whitening = Eigen::Matrix3d::Zero(); // all lengths are 0 at first, so no edge is too long
   std::vector<double> lengths;
   for (int step = 0; step < steps; ++step) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
@@ -247,7 +246,7 @@ inline Normalization_3 normalization_of(const std::vector<Eigen::Vector3d>& poin
   return result;
 }
 
-/// Data points in normal coordinates.
+/// Data points in normalized coordinates.
 struct Normalized_data {
   Data_points_3 data;
   Normalization_3 normalization;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Chooses how to fit around each point: the family, the degree and the radius, by trials or for a scale.
+// Chooses family, degree and radius of the fit around each point, by trials or for a scale.
 #ifndef EQUIAFFINE_SRC_FIT_FIT_CHOICES_3_H
 #define EQUIAFFINE_SRC_FIT_FIT_CHOICES_3_H
 
@@ -26,25 +26,25 @@
 
 namespace equiaffine::internal {
 
-/// A way to fit.
+/// The parameters of a fit.
 struct Way_to_fit {
   Fit_family family = Fit_family::HEIGHT;
   int degree = 4;
-  double radius = 0; ///< as a multiple of the spacing of the points, or a length at a scale
+  double radius = 0; ///< in spacings of the points, or a length at a scale
   double weight_of_normals = 0;
 
-  /// Whether it is this way in a ball that is smaller by enough to tell something else.
+  /// Whether this differs from the other only by a ball that is enough smaller to give independent information.
   bool is_smaller(const Way_to_fit& other) const {
     constexpr double ratio = 1.15;
     return family == other.family && degree == other.degree && weight_of_normals == other.weight_of_normals &&
            ratio * radius < other.radius;
   }
 
-  /// The degree that the result is compared with.
+  /// The degree used for comparison.
   int other_degree() const { return degree + (family == Fit_family::HEIGHT ? 2 : 1); }
 
-  /// Another degree to compare with. Where a ball in space holds most of a shape with a center of symmetry, odd degrees
-  /// add nothing to even ones, which agree with them whatever they miss. The greatest degree has no such other.
+  /// Another degree for comparison. If a ball in space contains most of a centrally symmetric shape, odd degrees add
+  /// nothing to even ones, so both agree regardless of their error. The highest degree has no such other degree.
   int other_degree_of_same_parity() const {
     return family == Fit_family::HEIGHT || degree + 2 <= maximal_space_degree ? degree + 2 : other_degree();
   }
@@ -54,13 +54,13 @@ struct Way_to_fit {
   }
 };
 
-/// Returns the differences between the numbers of fits, relative to the sizes of the first one.
+/// Returns the differences between the numbers of two fits, relative to the sizes of the first.
 inline Number_errors relative_difference(const Fitted_numbers& fit, const Fitted_numbers& other) {
   return fit.differences(other) / fit.sizes();
 }
 
-/// The factor of standard deviations to which the part of the residual beyond the noise contributes as an error that
-/// whole regions have in common.
+/// The factor on standard deviations for the part of the residual beyond the noise, which is an error common to
+/// whole regions.
 inline double guard(const Local_fit_3& fit, double noise) {
   const double square = fit.residual * fit.residual;
   const double excess = square > 0 ? std::max(0., square - noise * noise) / square : 0;
@@ -70,21 +70,21 @@ inline double guard(const Local_fit_3& fit, double noise) {
   return std::sqrt(1 - excess + excess * std::max(1., double(fit.points) / freedom));
 }
 
-/// Returns relative errors with 1 for those of numbers that do not exist.
+/// Returns relative errors, with 1 for numbers that do not exist.
 inline Number_errors errors_or_all(const Number_errors& relative) {
   return relative.unaryExpr([](double error) { return std::isfinite(error) ? error : 1; });
 }
 
-/// The way to fit that was chosen around a point.
+/// The chosen fit parameters around a point.
 struct Fit_choice {
   Way_to_fit way;
-  Number_errors level = Number_errors::Zero(); ///< the relative errors that are typical around
-  double noise = 0;                            ///< the standard deviation of points from any smooth surface
+  Number_errors level = Number_errors::Zero(); ///< typical relative errors around the point
+  double noise = 0;                            ///< standard deviation of points from any smooth surface
 };
 
-/// The way to fit that the data choose around every point, if no scale is given. Trial fits at sample centers are
-/// scored by an estimate of their errors, from the difference to the next degree and from the residuals; scores are
-/// averaged over neighboring centers, and the way with the least score is chosen.
+/// Chooses fit parameters around every point from the data if no scale is given. Trial fits at sample centers are
+/// scored by an estimate of their errors, from the difference to the next degree and from the residuals. Scores are
+/// averaged over neighboring centers, and the lowest score wins.
 class Fit_trials_3 {
 public:
   using Index = Data_points_3::Index;
@@ -108,32 +108,32 @@ public:
 
   const std::vector<Index>& centers() const { return centers_; }
 
-  /// Returns the choice of the center that is nearest to the point, or of one near it where no fit is possible.
+  /// Returns the choice of the center nearest to the point, or of one near it if no fit is possible there.
   const std::optional<Fit_choice>& at(const Eigen::Vector3d& p) const { return choices_[tree_.nearest(p, 1).front()]; }
 
 private:
-  /// The numbers that a candidate has at a center, with their errors.
+  /// The numbers of a candidate at a center, with their errors.
   struct Measurement {
     Fitted_numbers numbers;
     double score;            ///< logarithm of the relative error of K
-    Number_errors log_level; ///< logarithms of relative errors that count the same parity, too
+    Number_errors log_level; ///< logarithms of relative errors that include the degree of the same parity
     Fitted_curvatures deviations;
   };
 
   struct Trial {
-    std::vector<std::optional<Measurement>> measurements; ///< one for each candidate
+    std::vector<std::optional<Measurement>> measurements; ///< one per candidate
     double noise = 0;
   };
 
-  /// Polynomials in space, which take most of the time, are tried only where heights leave a larger relative error of
-  /// K.
+  /// Polynomials in space take most of the time, so they are tried only where heights have a larger relative error
+  /// of K.
   static constexpr double doubtful_level = 3e-3;
 
-  /// A search ends after three radii in a row whose error is so many times the least one.
+  /// A search ends after three consecutive radii whose error exceeds the smallest one by this factor.
   static constexpr double much_worse = 20;
 
-  /// The weight of the standard deviation beside the difference to another degree: that of the prototype, which was
-  /// tried on metaballs and a product of sines with noise of 0.1 to 5 % of an edge. It was not varied since.
+  /// The weight of the standard deviation relative to the difference to another degree, from the prototype. It was
+  /// tried on metaballs and a product of sines with noise of 0.1 to 5 % of an edge, and not varied since.
   static constexpr double weight_of_deviation = 1.4;
 
   static constexpr std::size_t number_around = 12; ///< of centers that are compared
@@ -162,7 +162,7 @@ private:
     return std::min(points, std::clamp<std::size_t>(points / 50, 50, 200));
   }
 
-  /// Returns the least residual of small fits that have points to spare: what no smooth surface explains.
+  /// Returns the smallest residual of small overdetermined fits: the deviation from any smooth surface.
   double noise_at(Index center) const {
     if (options_.noise) return *options_.noise;
     double noise = std::numeric_limits<double>::infinity();
@@ -173,7 +173,7 @@ private:
     return std::isfinite(noise) ? noise : 0;
   }
 
-  /// Tries fits of increasing radius, until three in a row are worse than the best by far, or no more points come in.
+  /// Tries fits of increasing radius until three in a row are much worse than the best, or no more points are added.
   template <class Fit>
   void try_radii(Trial& trial, std::size_t most_points, Fit fit) const {
     double least = std::numeric_limits<double>::infinity();
@@ -209,7 +209,7 @@ private:
     });
   }
 
-  /// Scores the candidates of one radius, and returns the least score.
+  /// Scores the candidates of one radius, and returns the lowest score.
   double enter(Trial& trial, double radius, const std::vector<Local_fit_3>& fits) const {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < candidates_.size(); ++k) {
@@ -233,7 +233,8 @@ private:
     return least;
   }
 
-  /// Returns logarithms of relative errors, from differences to other fits, and for K and H the standard deviation.
+  /// Returns logarithms of relative errors, from differences to other fits, and for K and H also from the standard
+  /// deviation.
   static Number_errors logarithms(const Local_fit_3& fit, const Number_errors& differences, double noise) {
     const double weight = weight_of_deviation * guard(fit, noise), size = fit.curvatures.size();
     Number_errors errors = differences;
@@ -247,8 +248,8 @@ private:
     return Jets_of_data(fit.patch.frame / fit.patch.radius).numbers(fit.jet);
   }
 
-  /// The typical difference around between a number of a candidate and that in a smaller ball, as a part of the size,
-  /// without what noise makes of the latter.
+  /// The typical relative difference, over the centers around, between a number of a candidate and that in a smaller
+  /// ball, without the contribution of noise to the latter.
   double difference_to_smaller(const std::vector<Index>& around, std::size_t candidate, std::size_t smaller,
                                Fitted_number number, double Fitted_curvatures::*deviation) const {
     constexpr double part_of_noise = 2 * 0.53, least = 1e-12; // twice that of the mean logarithm of normal errors
@@ -268,8 +269,8 @@ private:
     return std::sqrt(std::max(0., difference * difference - noise * noise));
   }
 
-  /// How many times larger the errors of a candidate are than `level`, which differences of degrees tell. Where all
-  /// degrees leave out the same detail, a smaller ball shows it (Lepski, On a problem of adaptive estimation in
+  /// The ratio of the errors of a candidate to `level`, the errors from differences between degrees. Where all
+  /// degrees miss the same detail, a smaller ball reveals it (Lepski, On a problem of adaptive estimation in
   /// Gaussian white noise, 1991).
   double factor_by_smaller_balls(const std::vector<Index>& around, std::size_t candidate,
                                  const Number_errors& level) const {
@@ -284,8 +285,8 @@ private:
     return factor;
   }
 
-  /// Candidates that fail at most centers around are passed over, unless no other is left. On exact data, where
-  /// differences of degrees are small beside those of balls, smaller balls do not count.
+  /// Skips candidates that fail at most centers around, unless none is left. On exact data smaller balls do not
+  /// count, because differences between degrees are small compared with those between balls.
   std::optional<Fit_choice> choice_at(std::size_t c) const {
     const bool is_exact = trials_[c].noise <= noise_of_exact_data * data_.spacing[centers_[c]];
     const auto around = tree_.nearest(data_.points[centers_[c]], number_around);
@@ -317,7 +318,7 @@ private:
     return {};
   }
 
-  /// The choice of the nearest center around that has one.
+  /// The choice of the nearest center that has one.
   std::optional<Fit_choice> choice_around(std::size_t c) const {
     for (const Index d : tree_.nearest(data_.points[centers_[c]], number_around))
       if (choices_[d]) return choices_[d];
@@ -334,24 +335,24 @@ private:
   std::vector<std::optional<Fit_choice>> choices_;
 };
 
-/// How the data are fitted around every point: as trials say, or at one scale for all.
+/// The fit parameters around every point: by trials, or for one scale for all.
 class Fit_choices_3 {
 public:
-  /// The surface's own curvature, as trials say. `matrix` goes from the data to their normal coordinates.
+  /// For the curvature of the surface itself, by trials. `matrix` maps the data to normalized coordinates.
   Fit_choices_3(const Data_points_3& data, const Eigen::Matrix3d& matrix, const Fit_options& options,
                 Fit_trials_3 trials)
       : data_(data), matrix_(matrix), options_(options), trials_(std::move(trials)) {}
 
-  /// Curvature at a scale, which `set_scale` sets. `noise` has the deviation of every point from a smooth surface.
+  /// For curvature at a scale, set by `set_scale`. `noise` is the deviation of every point from a smooth surface.
   Fit_choices_3(const Data_points_3& data, const Eigen::Matrix3d& matrix, const Fit_options& options,
                 std::vector<double> noise)
       : data_(data), matrix_(matrix), options_(options), noise_(std::move(noise)) {}
 
-  /// At a scale curvatures are by definition those of a polynomial whose degree, the least one, makes the least of
-  /// noise; one of degree 8 or 10 is a height. The weight of normals is small, since noise of the points makes normals
-  /// wrong by more than their number evens out: with 0.3, K was off by four of its standard deviations where the noise
-  /// was a tenth of an edge. The ball is larger for it, so that the scale means the same resolution as with that
-  /// weight.
+  /// By definition, curvatures at a scale are those of a polynomial. Its default degree is the lowest one, which
+  /// minimizes the effect of noise; degrees 8 and 10 are heights. The weight of normals is small, because noise of
+  /// the points affects normals by more than their number averages out: with 0.3, K was off by four standard
+  /// deviations where the noise was a tenth of an edge. The ball is larger in return, so that the scale means the
+  /// same resolution as with that weight.
   void set_scale(double scale) {
     constexpr double weight_of_normals = 0.03;
     const int degree = options_.degree.value_or(4);
@@ -361,7 +362,7 @@ public:
                             is_space ? weight_of_normals : 0}};
   }
 
-  /// Returns the choice at a point, if any fit is possible there.
+  /// Returns the choice at a point, if a fit is possible there.
   const std::optional<Fit_choice>& at(const Eigen::Vector3d& p) const { return trials_ ? trials_->at(p) : at_scale_; }
 
   /// Returns the radius of a candidate around a point.
@@ -369,14 +370,15 @@ public:
     return scale_ ? candidate.radius : candidate.radius * data_.spacing[center];
   }
 
-  /// The scale of the curvatures, a length in normal coordinates; nothing for the surface's own.
+  /// The scale of the curvatures, a length in normalized coordinates; nothing if they are those of the surface
+  /// itself.
   const std::optional<double>& scale() const { return scale_; }
 
   bool is_scale_by_data() const { return !options_.scale; }
 
   bool has_noise() const { return options_.noise.has_value(); }
 
-  /// The deviation of a point from a smooth surface, which the choice around it has without a scale.
+  /// The deviation of a point from a smooth surface. Without a scale it is that of the choice around the point.
   double noise(const Fit_choice& choice, Data_points_3::Index center) const {
     return noise_.empty() ? choice.noise : noise_[center];
   }
@@ -384,7 +386,7 @@ public:
   Number_request number_request() const { return {matrix_, noise_, has_noise()}; }
 
 private:
-  /// The radius of a ball beside the scale.
+  /// The ratio of the radius of a ball to the scale.
   static constexpr double radius_of_scale = 1.14;
 
   const Data_points_3& data_;

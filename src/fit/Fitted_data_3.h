@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Chooses the scale of a fit, and computes the local structures with estimated errors that it gives.
+// Chooses the scale of a fit, and computes the local structures with estimated errors.
 #ifndef EQUIAFFINE_SRC_FIT_FITTED_DATA_3_H
 #define EQUIAFFINE_SRC_FIT_FITTED_DATA_3_H
 
@@ -36,12 +36,12 @@
 
 namespace equiaffine::internal {
 
-/// The standard deviation of the points around one from a small height of degree 4: what no smooth surface explains. It
-/// is not a number where there are too few points.
+/// The standard deviation of the points around one from a small height of degree 4: the deviation from any smooth
+/// surface. NaN where there are too few points.
 inline double noise_at_point(const Data_points_3& data, Data_points_3::Index center) {
   constexpr int degree = 4;
   constexpr double radius_in_spacings = 6, growth = 1.2;
-  constexpr std::size_t enough = 33; // points: twice the number of coefficients, and some more
+  constexpr std::size_t enough = 33; // points: twice the number of coefficients, and a few more
   double radius = radius_in_spacings * data.spacing[center];
   auto ball = connected_ball(data, center, radius);
   for (int step = 0; step < 4 && ball.size() < enough; ++step) ball = connected_ball(data, center, radius *= growth);
@@ -56,7 +56,7 @@ inline double noise_at_point(const Data_points_3& data, Data_points_3::Index cen
   return radius * rest.norm() / std::sqrt(system.roots_of_weights.squaredNorm() * (1 - count / points));
 }
 
-/// The noise of every point; the mean of the others where it is not known.
+/// The noise at every point; the mean of the others where it is unknown.
 inline std::vector<double> point_noise(bool in_threads, const Data_points_3& data) {
   std::vector<double> noise(data.size());
   parallel_for(
@@ -72,7 +72,7 @@ inline std::vector<double> point_noise(bool in_threads, const Data_points_3& dat
   return noise;
 }
 
-/// The diagonal of the box of the points in their own coordinates.
+/// The diagonal of the bounding box of the data.
 inline double diagonal_of_data(const Normalized_data& normalized) {
   const Eigen::Matrix3d inverse = normalized.normalization.matrix.inverse();
   Eigen::AlignedBox3d box;
@@ -80,7 +80,7 @@ inline double diagonal_of_data(const Normalized_data& normalized) {
   return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
-/// Whether at half of the sample centers the ball of the scale has the points that a polynomial needs.
+/// Whether the ball of the scale has enough points for a polynomial at half of the sample centers.
 inline bool has_enough_points(const Data_points_3& data, const std::vector<Data_points_3::Index>& centers,
                               const Fit_choices_3& choices) {
   const Way_to_fit& way = choices.at(Eigen::Vector3d::Zero())->way;
@@ -91,11 +91,11 @@ inline bool has_enough_points(const Data_points_3& data, const std::vector<Data_
   return 2 * std::size_t(enough) >= centers.size();
 }
 
-/// Refuses a scale beyond a third of the size of the data, and one below what has enough points at most of them.
+/// Rejects a scale larger than a third of the size of the data, and one with too few points at most centers.
 inline void check_scale(const Normalized_data& normalized, Fit_choices_3 choices) {
   const Data_points_3& data = normalized.data;
   const Way_to_fit way = choices.at(Eigen::Vector3d::Zero())->way;
-  if (greatest_degree(way.family, std::array{way.degree}, data.size()) == 0) return; // nothing is known then
+  if (greatest_degree(way.family, std::array{way.degree}, data.size()) == 0) return; // there is no fit then
   const double unit = normalized.normalization.scale(), scale = *choices.scale() / unit;
   const double diagonal = diagonal_of_data(normalized);
   const double unit_of_third_digit = std::pow(10, std::floor(std::log10(diagonal)) - 3);
@@ -115,12 +115,12 @@ inline void check_scale(const Normalized_data& normalized, Fit_choices_3 choices
   for (; !has_enough_points(data, centers, choices) && least < diagonal; least *= 1.1)
     choices.set_scale(1.1 * least * unit);
   if (least != scale && least < diagonal / 3)
-    throw Input_error::about("scale", text("within the scale ", scale,
-                                           " most points have fewer others than a polynomial needs; give at least ",
+    throw Input_error::about("scale", text("most points have too few neighbors for a polynomial within the scale ",
+                                           scale, "; give at least ",
                                            std::ceil(least / unit_of_third_digit) * unit_of_third_digit));
 }
 
-/// Whether noise leaves K of a fit at a scale known to within a part of |K| + H^2.
+/// Whether K of a fit at a scale is known, despite noise, to within a fraction of |K| + H^2.
 inline bool is_gaussian_known(const Curvature_fit_3& fit, double part) {
   const auto& numbers = fit.numbers.components;
   const double size = std::abs(numbers[AFFINE_GAUSSIAN]) + numbers[AFFINE_MEAN] * numbers[AFFINE_MEAN];
@@ -128,14 +128,14 @@ inline bool is_gaussian_known(const Curvature_fit_3& fit, double part) {
          fit.accuracy.noise[AFFINE_GAUSSIAN] * fit.numbers.sizes()[AFFINE_GAUSSIAN] <= part * size;
 }
 
-/// Whether the surface of a fit is flat along a direction, within the error: it has no affine curvature to be known.
+/// Whether the surface of a fit is flat along a direction, within the error, so that it has no affine curvature.
 inline bool is_flat(const Curvature_fit_3& fit) {
   const Number_errors sizes = fit.numbers.sizes();
   return std::abs(fit.numbers.components[GAUSSIAN]) <= fit.accuracy.error[GAUSSIAN] * sizes[GAUSSIAN] &&
          fit.accuracy.error[GAUSSIAN] <= 0.01;
 }
 
-/// Returns the part of centers at which `is_settled(fit)` holds.
+/// Returns the fraction of centers at which `is_settled(fit)` holds.
 template <class Is_settled>
 double part_settled(bool in_threads, const Data_points_3& data, const Fit_choices_3& choices,
                     const std::vector<Data_points_3::Index>& centers, const Is_settled& is_settled) {
@@ -148,8 +148,8 @@ double part_settled(bool in_threads, const Data_points_3& data, const Fit_choice
   return centers.empty() ? 1 : double(std::count(settled.begin(), settled.end(), 1)) / double(centers.size());
 }
 
-/// The diagonal of the box of points along their principal axes: in normal coordinates it is the same for all affine
-/// images of the points, but where axes are not determined.
+/// The diagonal of the bounding box of points along their principal axes. In normalized coordinates it is the same
+/// for all affine images of the points, unless the axes are not determined.
 inline double principal_diagonal(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const auto& p : points) mean += p / double(points.size());
@@ -164,8 +164,8 @@ inline double principal_diagonal(const std::vector<Eigen::Vector3d>& points) {
   return points.empty() ? 0 : (upper - lower).norm();
 }
 
-/// Sets the smallest scale at which noise leaves K known to 20 % at half of the points, from 1/64 to 1/8 of the
-/// diagonal; or the largest of these, where it never does.
+/// Sets the smallest scale, from 1/64 to 1/8 of the diagonal, at which K is known to 20 % despite noise at half of
+/// the points; or the largest one if there is none.
 inline void set_known_scale(bool in_threads, const Normalized_data& normalized, Fit_choices_3& choices) {
   const Data_points_3& data = normalized.data;
   constexpr std::size_t most_centers = 200;
@@ -181,8 +181,8 @@ inline void set_known_scale(bool in_threads, const Normalized_data& normalized, 
   }
 }
 
-/// Chooses how to fit. A scale of 0 asks for the surface's own curvature. Without a scale that is chosen where K is
-/// known to 50 % at half of the points, or does not exist since the surface is flat.
+/// Chooses fit parameters. A scale of 0 requests the curvature of the surface itself. Without a scale this is chosen
+/// if K is known to 50 % at half of the points, or does not exist because the surface is flat.
 inline Fit_choices_3 choose_fit(bool in_threads, const Normalized_data& normalized, const Fit_options& options) {
   const Data_points_3& data = normalized.data;
   const Eigen::Matrix3d& matrix = normalized.normalization.matrix;
@@ -206,7 +206,7 @@ inline Fit_choices_3 choose_fit(bool in_threads, const Normalized_data& normaliz
   return at_scale;
 }
 
-/// Data points with the way to fit them. It stays where it is, since the choice refers to the data.
+/// Data points with their fit parameters. Not movable, because the choices refer to the data.
 class Fitted_data_3 {
 public:
   Fitted_data_3(bool in_threads, Normalized_data data, Fit_options options)
@@ -218,22 +218,23 @@ public:
 
   const Data_points_3& data() const { return data_.data; }
   const Fit_choices_3& choices() const { return choices_; }
-  /// The scale of the curvatures in the unit of the data; nothing for the surface's own.
+  /// The scale of the curvatures in the unit of the data; nothing if they are those of the surface itself.
   std::optional<double> scale() const {
     if (!choices_.scale()) return {};
     return *choices_.scale() / data_.normalization.scale();
   }
   const Normalization_3& normalization() const { return data_.normalization; }
-  /// The diagonal of the box of the data.
+  /// The diagonal of the bounding box of the data.
   double diagonal() const { return diagonal_of_data(data_); }
 
-  /// Turns the expansion of a function in normal coordinates into one in those of the data, in their unit of length.
+  /// Converts an expansion from normalized coordinates to those of the data, in their unit of length.
   template <int Order>
   Jet_3<double, Order> to_space(const Jet_3<double, Order>& jet) const {
     return substitution_(jet) * (1 / data_.normalization.scale());
   }
 
-  /// The errors of second derivatives that roundings of the points make, for the expansion of a fit in space.
+  /// The errors of second derivatives due to rounding of the points, for an expansion in the coordinates of the
+  /// data.
   template <int Order>
   double rounding(const Jet_3<double, Order>& jet, double radius) const {
     const auto& c = jet.coefficients();
@@ -270,8 +271,8 @@ private:
   Linear_substitution_3<double> substitution_;
 };
 
-/// The errors of second derivatives that roundings make; infinity where K_e is zero within its estimated error, and no
-/// more than that of a sphere whose radius is ten times that of the fit: an error may be large beside any curvature.
+/// The errors of second derivatives due to rounding. Infinity where K_e is zero within its estimated error and at
+/// most that of a sphere with ten times the radius of the fit: a relative error can be large for any curvature.
 inline double rounding_of(const Jet_3<double>& jet, const Fitted_data_3& fit, const Fit_accuracy& accuracy) {
   const Fitted_numbers numbers(jet);
   const double curvature = std::abs(numbers.components[GAUSSIAN]);
@@ -280,7 +281,7 @@ inline double rounding_of(const Jet_3<double>& jet, const Fitted_data_3& fit, co
   return is_flat ? std::numeric_limits<double>::infinity() : fit.rounding(fit.to_space(jet), accuracy.radius);
 }
 
-/// The errors of the numbers of a structure that exist, from errors relative to their sizes. Angles are in degrees.
+/// The errors of the existing numbers of a structure, from errors relative to their sizes. Angles are in degrees.
 inline Local_structure_error_3<double> structure_error(const Number_errors& relative, const Number_errors& sizes,
                                                        Point_status status) {
   Number_errors e = relative * sizes;
@@ -308,7 +309,7 @@ inline Fitted_structure_3<double> structure_without_fit() {
   return {structure, unknown, unknown, unknown, nan, false, nan};
 }
 
-/// The structure of the level set through a point, from the expansion there of a fit, or of a blend of fits.
+/// The structure of the level set through a point, from the expansion of a fit, or of a blend of fits, there.
 inline Fitted_structure_3<double> structure_of(const Jet_3<double>& jet, const Fitted_data_3& fit,
                                                const Fit_accuracy& accuracy, Orientation_of_level_set orientation) {
   Fitted_structure_3<double> result;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The numbers whose errors fits estimate, and the factors that calibrate these estimates.
+// The numbers whose errors fits estimate, and the calibration of these estimates.
 #ifndef EQUIAFFINE_SRC_FIT_FITTED_NUMBERS_H
 #define EQUIAFFINE_SRC_FIT_FITTED_NUMBERS_H
 
@@ -18,7 +18,7 @@
 
 namespace equiaffine::internal {
 
-/// The numbers of a surface whose errors fits estimate, and two directions, in the order of `Number_errors`.
+/// The numbers of a surface, and two directions, whose errors fits estimate, in the order of `Number_errors`.
 enum Fitted_number : Eigen::Index {
   AFFINE_GAUSSIAN, ///< K
   AFFINE_MEAN,     ///< H
@@ -28,12 +28,12 @@ enum Fitted_number : Eigen::Index {
   MEAN,            ///< H_e
   K1,
   K2,
-  AFFINE_NORMAL, ///< with components from here
+  AFFINE_NORMAL, ///< components start here
   NORMAL,
   number_of_fitted_numbers
 };
 
-/// One for each of `Fitted_number`. That of a direction is an angle in radians.
+/// One entry for each `Fitted_number`. For a direction it is an angle in radians.
 using Number_errors = Eigen::Array<double, number_of_fitted_numbers, 1>;
 
 /// The scalars, and the components of the two vectors.
@@ -55,8 +55,9 @@ struct Fitted_numbers {
   Eigen::Vector3d affine_normal() const { return components.segment<3>(AFFINE_NORMAL); }
   Eigen::Vector3d normal() const { return components.segment<3>(AFFINE_NORMAL + 3); }
 
-  /// The numbers that errors are compared with, which are not zero where a curvature changes its sign: |K| + H^2 with
-  /// a part of K of a sphere with that K_e, since K and H of a paraboloid are zero; the curvedness; and 1 for angles.
+  /// The reference magnitudes for relative errors. They do not vanish where a curvature changes sign: |K| + H^2 plus
+  /// a fraction of K of a sphere with that K_e, because K and H of a paraboloid are zero; the curvedness; and 1 for
+  /// angles.
   Number_errors sizes() const {
     const double of_affine = std::abs(components[AFFINE_GAUSSIAN]) + components[AFFINE_MEAN] * components[AFFINE_MEAN] +
                              0.01 * std::pow(components[AREA_DENSITY], 6);
@@ -66,7 +67,7 @@ struct Fitted_numbers {
     return sizes;
   }
 
-  /// How far the numbers of another fit are away.
+  /// The distances from the numbers of another fit.
   Number_errors differences(const Fitted_numbers& other) const {
     const auto angle = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
       return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -78,8 +79,8 @@ struct Fitted_numbers {
     return result;
   }
 
-  /// The standard deviations that the components have if independent errors of unit variance change them by the rows of
-  /// `influence`. Twice that of a direction covers 19 of 20 angles, which have a Rayleigh distribution.
+  /// The standard deviations of the numbers if independent errors of unit variance change the components by the rows
+  /// of `influence`. For a direction, twice this value covers 19 of 20 angles, which have a Rayleigh distribution.
   Number_errors deviations(const Eigen::Matrix<double, Eigen::Dynamic, size>& influence) const {
     Number_errors result;
     result.head<AFFINE_NORMAL>() = influence.leftCols<AFFINE_NORMAL>().colwise().norm().transpose();
@@ -94,16 +95,16 @@ struct Fitted_numbers {
   }
 };
 
-/// The map from the coordinates of a fit to those of the data, through which jets become numbers of the data.
+/// The map from the coordinates of a fit to those of the data, to convert jets to numbers of the data.
 class Jets_of_data {
 public:
-  /// `matrix` goes from the data to the coordinates of the fit.
+  /// `matrix` maps the data to the coordinates of the fit.
   explicit Jets_of_data(const Eigen::Matrix3d& matrix) : substitution_(rows(matrix)) {}
 
   Fitted_numbers numbers(const Jet_3<double>& jet) const { return Fitted_numbers(substitution_(jet)); }
 
-  /// How the components change with the coefficients of the jet, by central differences whose step is 1e-4 of a
-  /// coefficient: a standard deviation needs few digits.
+  /// The derivatives of the components with respect to the coefficients of the jet, by central differences with a
+  /// step of 1e-4 of a coefficient: a standard deviation needs few digits.
   Eigen::Matrix<double, Eigen::Dynamic, Fitted_numbers::size> gradient(const Jet_3<double>& jet) const {
     Eigen::Matrix<double, Eigen::Dynamic, Fitted_numbers::size> result(jet.size, Fitted_numbers::size);
     result.row(0).setZero();
@@ -128,27 +129,28 @@ private:
   Linear_substitution_3<double> substitution_;
 };
 
-/// The sources of errors of the numbers of a fit, each of which has its own factors.
+/// The sources of errors of the numbers of a fit, each with its own factors.
 enum class Source_of_error {
-  DETAIL, ///< what polynomials leave out, since the data are exact
-  BOTH,   ///< detail and noise below a fiftieth of the spacing of the points
-  NOISE,  ///< detail and more noise
-  SCALE   ///< noise alone, since the numbers are those at a scale
+  DETAIL, ///< approximation error, because the data are exact
+  BOTH,   ///< detail, and noise below a fiftieth of the spacing of the points
+  NOISE,  ///< detail, and more noise
+  SCALE   ///< noise alone, because the numbers are those at a scale
 };
 
-/// Data are exact where their noise is below this part of their spacing.
+/// Data are exact if their noise is below this fraction of their spacing.
 constexpr double noise_of_exact_data = 1e-4;
 
-/// Returns the source of errors without a scale. `noise` is a part of the spacing of the points.
+/// Returns the source of errors without a scale. `noise` is relative to the spacing of the points.
 inline Source_of_error source_of_error(double noise) {
   constexpr double much_noise = 0.02;
   if (noise <= noise_of_exact_data) return Source_of_error::DETAIL;
   return noise < much_noise ? Source_of_error::BOTH : Source_of_error::NOISE;
 }
 
-/// The factors with which estimates of errors cover the errors at 95 % of the points where they are below a half, and
-/// at 91.5 % on all meshes but one, up to a factor of 4. benchmark/fit/calibrate-fits makes them, from surfaces whose
-/// numbers are known, with noise and without, and for a scale from halves of scans.
+/// The factors by which error estimates must be multiplied to cover the errors at 95 % of the points with estimates
+/// below one half, and at 91.5 % on all meshes but one, up to a factor of 4. They are computed by
+/// benchmark/fit/calibrate-fits, from surfaces whose numbers are known, with and without noise, and for a scale from
+/// halves of scans.
 inline Number_errors calibration(Source_of_error source) {
   // of K, H, J, |K_e|^(1/4), K_e, H_e, k1, k2, the affine normal and the normal
   using Row = std::array<double, std::size_t(number_of_fitted_numbers)>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One fitted polynomial with its expansions, its curvatures and what is known of their errors.
+// One fitted polynomial with its expansions, its curvatures and their error estimates.
 #ifndef EQUIAFFINE_SRC_FIT_LOCAL_FIT_3_H
 #define EQUIAFFINE_SRC_FIT_LOCAL_FIT_3_H
 
@@ -21,7 +21,7 @@
 
 namespace equiaffine::internal {
 
-/// The kinds of polynomials that are fitted to points.
+/// The kinds of polynomials fitted to points.
 enum class Fit_family {
   HEIGHT, ///< w = p(u, v) in a frame whose third axis is a normal
   SPACE   ///< f(x, y, z) = 0
@@ -32,7 +32,7 @@ constexpr std::size_t number_of_coefficients(Fit_family family, int degree) {
                                                   : (degree + 1) * (degree + 2) * (degree + 3) / 6);
 }
 
-/// Returns the greatest of the degrees for which there are at least 1.2 points to a coefficient, or 0.
+/// Returns the highest degree with at least 1.2 points per coefficient, or 0.
 inline int greatest_degree(Fit_family family, std::span<const int> degrees, std::size_t points) {
   int greatest = 0;
   for (const int degree : degrees)
@@ -40,8 +40,8 @@ inline int greatest_degree(Fit_family family, std::span<const int> degrees, std:
   return greatest;
 }
 
-/// A polynomial whose zero set is the surface near a center, in units of `radius` about it. Its value is about the
-/// signed distance from the surface, in the unit of the points.
+/// A polynomial whose zero set is the surface near a center, in units of `radius` around it. Its value approximates
+/// the signed distance from the surface, in the unit of the points.
 struct Patch_3 {
   using Vector = Eigen::Vector3d;
 
@@ -49,11 +49,11 @@ struct Patch_3 {
   int degree = 0;
   double radius = 1;
   Vector center = Vector::Zero();
-  /// The axes of u, v, w as rows. A patch of Fit_family::SPACE has those of space.
+  /// The axes of u, v, w as rows; the identity for Fit_family::SPACE.
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
   double slope_factor = 1; ///< 1 / |gradient of w - p(u, v)| at the center
-  /// A height has those of u^i v^j with ascending i for ascending j, a polynomial in space those of x^i y^j z^k with
-  /// ascending k for ascending j for ascending i.
+  /// Order for a height: u^i v^j with ascending i within ascending j. For a polynomial in space: x^i y^j z^k with
+  /// ascending k within ascending j within ascending i.
   std::vector<double> coefficients;
 
   double value(const Vector& p) const;
@@ -69,11 +69,11 @@ inline void expand_at(double t, double* c, int degree, int count) {
     for (int i = degree - 1; i >= k; --i) c[i] += t * c[i + 1];
 }
 
-/// Returns the coefficients of u^i v^j, i + j <= Order, of the expansion of p at (u, v), in row i.
+/// Returns the coefficients of u^i v^j, i + j <= Order, of the expansion of p at (u, v); row i has those of u^i.
 template <int Order>
 auto expand_height(const Patch_3& patch, double u, double v) {
   constexpr std::size_t most = 13, orders = std::size_t(Order) + 1;
-  std::array<std::array<double, most>, orders> rows = {}; // row i: the coefficients of the powers of v beside du^i
+  std::array<std::array<double, most>, orders> rows = {}; // row i: coefficients of du^i as polynomials in v
   const double* c = patch.coefficients.data();
   for (int j = 0; j <= patch.degree; ++j) {
     const int degree = patch.degree - j, count = std::min(degree, Order) + 1;
@@ -91,7 +91,7 @@ auto expand_height(const Patch_3& patch, double u, double v) {
   return expansion;
 }
 
-/// Returns the jet of w - p(u, v) at a point, in units of the radius, in the coordinates of space.
+/// Returns the jet of w - p(u, v) in the coordinates of space, at a point in units of the radius.
 template <int Order>
 Jet_3<double, Order> height_taylor(const Patch_3& patch, const Eigen::Vector3d& local) {
   const auto p = expand_height<Order>(patch, local[0], local[1]);
@@ -118,11 +118,11 @@ template <int Order>
 Jet_3<double, Order> space_taylor(const Patch_3& patch, const Eigen::Vector3d& local) {
   constexpr std::size_t most = 8, orders = std::size_t(Order) + 1;
   const int d = patch.degree;
-  // planes[k][j] has the coefficients of the powers of x beside dy^j dz^k.
+  // planes[k][j]: coefficients of dy^j dz^k as polynomials in x
   std::array<std::array<std::array<double, most>, orders>, orders> planes;
   const double* c = patch.coefficients.data();
   for (int i = 0; i <= d; ++i) {
-    std::array<std::array<double, most>, orders> rows = {}; // rows[k] has those of the powers of y beside x^i dz^k
+    std::array<std::array<double, most>, orders> rows = {}; // rows[k]: coefficients of x^i dz^k as polynomials in y
     for (int j = 0; i + j <= d; ++j) {
       const int degree = d - i - j, count = std::min(degree, Order) + 1;
       std::array<double, most> line{};
@@ -187,11 +187,11 @@ inline double Patch_3::value(const Vector& p) const {
 }
 
 struct Fitted_curvatures {
-  double gaussian, mean; ///< the affine ones
-  double euclidean;      ///< the Euclidean Gaussian curvature K_e
+  double gaussian, mean; ///< affine curvatures
+  double euclidean;      ///< Euclidean Gaussian curvature K_e
 
-  /// The size that errors of K are compared with. It is not zero where K changes its sign, nor on a paraboloid, where K
-  /// and H are zero: the last term is a part of K of a sphere with that Gaussian curvature.
+  /// The reference magnitude for errors of K. It does not vanish where K changes sign, nor on a paraboloid, where K
+  /// and H are zero: the last term is a fraction of K of a sphere with that Gaussian curvature.
   double size() const { return std::abs(gaussian) + mean * mean + 0.01 * std::pow(std::abs(euclidean), 1.5); }
 };
 
@@ -202,35 +202,36 @@ inline Fitted_curvatures curvatures_of(const Jet_3<double>& jet) {
   return {invariants.gaussian_curvature, invariants.mean_curvature, chart.d() / (slope * slope)};
 }
 
-/// A request says how a fit estimates its numbers and their errors.
+/// Options for the estimates of the numbers and their errors.
 struct Number_request {
   Eigen::Matrix3d matrix;        ///< from the data to the coordinates of the points
-  std::span<const double> noise; ///< the standard deviation of each point from a smooth surface; empty if not known
-  bool is_given = false;         ///< whether a user gave the noise: then it counts as it is, whatever residuals are
+  std::span<const double> noise; ///< standard deviation of each point from a smooth surface; empty if unknown
+  bool is_given = false;         ///< whether the user gave the noise: then it counts as it is, regardless of residuals
 };
 
 /// The numbers of the data at the foot of the center of a fit, with standard deviations.
 struct Number_estimates {
   Fitted_numbers numbers;
   Number_errors of_residual; ///< if residuals are white noise
-  Number_errors of_noise;    ///< from the noise of every point, if that is known, or of the residual where this is less
+  Number_errors of_noise;    ///< from the noise of every point if it is known, or of the residual where that is smaller
 };
 
-/// A polynomial fitted to points, with the curvatures of its zero set at the foot of the center and what is known about
-/// their errors.
+/// A polynomial fitted to points, with the curvatures of its zero set at the foot of the center and their error
+/// estimates.
 struct Local_fit_3 {
   Patch_3 patch;
   Jet_3<double> jet = {}; ///< at the foot, in the frame of the patch and in radii
   Fitted_curvatures curvatures;
   Fitted_curvatures deviations = {}; ///< standard deviations if residuals are white noise
-  double residual = 0;               ///< the standard deviation of one point from the zero set
+  double residual = 0;               ///< standard deviation of one point from the zero set
   std::size_t points = 0;            ///< in the ball
   double weight_of_normals = 0;      ///< of a polynomial in space
-  double least_cosine = 1;           ///< of the angles between the frame's third axis and the normals of the points
-  std::optional<Number_estimates> estimates = {}; ///< if they were asked for
+  double least_cosine = 1;           ///< of the angles between the third axis of the frame and the normals of the
+                                     ///< points
+  std::optional<Number_estimates> estimates = {}; ///< if requested
 };
 
-/// How numbers, one for each column, change with the coefficients of the jet.
+/// The derivatives of numbers, one per column, with respect to the coefficients of the jet.
 using Number_gradient = Eigen::Matrix<double, int(Jet_3<double>::size), Eigen::Dynamic>;
 
 /// The gradients of K, H and K_e, by central differences as in Jets_of_data.
@@ -254,8 +255,8 @@ inline Fitted_curvatures in_unit(const Fitted_curvatures& c, double unit) {
   return {c.gaussian / volume, c.mean / std::sqrt(volume), c.euclidean / (unit * unit)};
 }
 
-/// The estimates from how the numbers change where a point of the ball moves by a radius along its normal, a row of
-/// `influence` for each point. The rows are `part` of those that there would be for all points of the ball.
+/// Estimates from the changes of the numbers if a point of the ball moves by a radius along its normal, a row of
+/// `influence` for each point. `part` is the fraction of the points of the ball that have rows.
 inline Number_estimates number_estimates(const Fitted_numbers& numbers, const Eigen::MatrixXd& influence,
                                          double residual, const Eigen::VectorXd& noise, bool is_given, double part) {
   Number_estimates result{numbers, {}, {}};
@@ -267,7 +268,7 @@ inline Number_estimates number_estimates(const Fitted_numbers& numbers, const Ei
   return result;
 }
 
-/// The noise of points in radii of a ball; empty if it is not known.
+/// The noise of points in radii of a ball; empty if unknown.
 inline Eigen::VectorXd noise_in_radii(std::span<const double> noise, std::span<const Data_points_3::Index> ball,
                                       double radius) {
   Eigen::VectorXd result(noise.empty() ? 0 : Eigen::Index(ball.size()));
@@ -275,15 +276,15 @@ inline Eigen::VectorXd noise_in_radii(std::span<const double> noise, std::span<c
   return result;
 }
 
-/// The end of Newton's steps along the gradient.
+/// The result of Newton steps along the gradient.
 struct Foot_3 {
   Eigen::Vector3d point;    ///< on the zero set, to within the length of a further step
-  Eigen::Vector3d before;   ///< the point from which the last step led there
+  Eigen::Vector3d before;   ///< the point from which the last step started
   Eigen::Vector3d gradient; ///< of the function at `before`
 };
 
-/// Moves a point along gradients to the zero set of a function, whose jets are `jet_at(p)`, until a step is not longer
-/// than `least_step`. There is no foot if a step is not shorter than `greatest_step(p)`, or if `most_steps` do not end.
+/// Moves a point along gradients to the zero set of a function with the jets `jet_at(p)`, until a step is at most
+/// `least_step` long. Returns nothing if a step reaches `greatest_step(p)`, or after `most_steps`.
 template <class Jet_at, class Greatest_step>
 std::optional<Foot_3> foot_on_surface(Eigen::Vector3d p, const Jet_at& jet_at, const Greatest_step& greatest_step,
                                       double least_step, int most_steps) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What Fitted_function_traits_3 asks of the library: the blend of fits, and sheets of the data that are near each
-// other.
+// Library side of Fitted_function_traits_3: the blend of fits, and close sheets of the data.
 #include "fit/Blend_3.h"
 #include "fit/Data_points_3.h"
 #include "fit/Fitted_data_3.h"
@@ -90,7 +89,8 @@ private:
   Blend_3 blend_;
 };
 
-/// Whether two points are of parts that meet at a crease, or both beside creases of parts that meet the same third one.
+/// Whether two points belong to parts that meet at a crease, or are both on creases of parts that meet the same
+/// third part.
 bool are_beside_crease(const Data_points_3& data, Data_points_3::Index i, Data_points_3::Index j) {
   const Charts_3& charts = data.charts;
   if (charts.of(i) == charts.of(j)) return false;
@@ -99,17 +99,17 @@ bool are_beside_crease(const Data_points_3& data, Data_points_3::Index i, Data_p
          charts.relation(charts.of(i), charts.of(j)) != Charts_3::Relation::NONE;
 }
 
-/// The distances along the normals, in the coordinates of the data, between points and the next ones that are within a
-/// spacing of them across and on another sheet, where these are less than `greatest` and about ten spacings. Points
-/// that are not connected nearby are on different sheets, and points whose normals are opposed, as on both sides of a
-/// thin plate or tube.
+/// For each point, the distance along its normal, in the coordinates of the data, to the nearest point of another
+/// sheet within a spacing across, if it is less than `greatest` and about ten spacings. Points are on different
+/// sheets if they are not connected nearby, or if their normals are opposite, as on both sides of a thin plate or
+/// tube.
 std::vector<double> distances_of_sheets(bool in_threads, const Fitted_data_3& fit, double greatest) {
   using Index = Data_points_3::Index;
   const Data_points_3& data = fit.data();
   const Eigen::Matrix3d to_space = fit.normalization().matrix.inverse();
   const Point_tree_3 tree(data.points);
   std::vector<double> distances(data.size(), std::numeric_limits<double>::infinity());
-  constexpr double most_spacings = 10; // so that each point asks for a bounded number of others
+  constexpr double most_spacings = 10; // bounds the number of neighbors per point
   const auto measure = [&](std::size_t i) {
     const double limit = std::min(greatest * fit.normalization().greatest_stretch(), most_spacings * data.spacing[i]);
     const double reach = std::hypot(limit, data.spacing[i]);

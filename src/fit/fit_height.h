@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits heights over the tangent plane, as polynomials in two variables, to the points of a ball.
+// Fits heights above the tangent plane, as polynomials in two variables, to the points of a ball.
 #ifndef EQUIAFFINE_SRC_FIT_FIT_HEIGHT_H
 #define EQUIAFFINE_SRC_FIT_FIT_HEIGHT_H
 
@@ -71,12 +71,13 @@ private:
 
 inline const Legendre_basis_2 legendre_basis_2;
 
-/// The rows sqrt(weight) (P_0(u) P_0(v), ...) and sqrt(weight) w of the points of a ball in a frame along the normal.
+/// The rows sqrt(weight) (P_0(u) P_0(v), ...) and sqrt(weight) w of the points of a ball in a frame along the
+/// normal.
 struct Height_system {
   Eigen::Matrix3d frame;
-  Eigen::MatrixXd rows; ///< a column for each point
+  Eigen::MatrixXd rows; ///< a column per point
   Eigen::VectorXd heights, roots_of_weights;
-  Eigen::VectorXd noise; ///< in radii; empty if it is not known
+  Eigen::VectorXd noise; ///< in radii; empty if unknown
   double least_cosine = 1;
 };
 
@@ -109,7 +110,7 @@ inline Height_system height_system(const Data_points_3& data, std::span<const Da
   return system;
 }
 
-/// Returns the coefficients of u^i v^j from those of P_i(u) P_j(v), in the order of Patch_3.
+/// Converts coefficients of P_i(u) P_j(v) to those of u^i v^j, in the order of Patch_3.
 inline std::vector<double> height_coefficients(const Eigen::VectorXd& legendre, int degree) {
   std::vector<double> coefficients(std::size_t(legendre.size()));
   const auto position = [degree](int i, int j) { return std::size_t(j * (degree + 1) - j * (j - 1) / 2 + i); };
@@ -122,7 +123,7 @@ inline std::vector<double> height_coefficients(const Eigen::VectorXd& legendre, 
   return coefficients;
 }
 
-/// Returns how numbers at the center change with the coefficients of the basis, a column for each number.
+/// The derivatives of numbers at the center with respect to the coefficients of the basis, one number per column.
 inline Eigen::MatrixXd height_gradient(const Number_gradient& gradient, std::size_t count) {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(Eigen::Index(count), gradient.cols());
   for (std::size_t m = 0; m < count; ++m) {
@@ -136,15 +137,15 @@ inline Eigen::MatrixXd height_gradient(const Number_gradient& gradient, std::siz
   return columns;
 }
 
-/// Completes the fit of one degree from the leading part of the Cholesky factor `lower` of the normal equations, whose
-/// right-hand side `reduced` has been solved for already.
+/// Completes the fit of one degree from the leading part of the Cholesky factor `lower` of the normal equations.
+/// `reduced` is the right-hand side after forward substitution.
 inline Local_fit_3 height_fit(const Height_system& system, const Eigen::MatrixXd& lower, const Eigen::VectorXd& reduced,
                               const Eigen::Vector3d& center, double radius, int degree, const Number_request* request) {
   const auto count = Eigen::Index(number_of_coefficients(Fit_family::HEIGHT, degree));
   const auto factor = lower.topLeftCorner(count, count).triangularView<Eigen::Lower>();
   const auto rows = system.rows.topRows(count);
   Eigen::VectorXd legendre = factor.transpose().solve(reduced.head(count));
-  // A step of refinement takes back what the normal equations lose, which have the square of the condition number.
+  // One step of iterative refinement, because the condition number of the normal equations is squared.
   Eigen::VectorXd correction = factor.solve(rows * (system.heights - rows.transpose() * legendre));
   legendre += factor.transpose().solve(correction);
   const Eigen::Index points = system.heights.size();
@@ -185,8 +186,8 @@ inline Local_fit_3 height_fit(const Height_system& system, const Eigen::MatrixXd
   return fit;
 }
 
-/// Fits heights of several even degrees, at most `maximal_height_degree`, to the points of a connected ball. A degree
-/// is left out where there are not 1.2 points to a coefficient. Estimates are made on request.
+/// Fits heights of several even degrees, at most `maximal_height_degree`, to the points of a connected ball. Degrees
+/// with fewer than 1.2 points per coefficient are skipped. Computes estimates if `request` is given.
 inline std::vector<Local_fit_3> fit_heights(const Data_points_3& data, Data_points_3::Index center, double radius,
                                             std::span<const int> degrees, const Number_request* request = nullptr) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Prepares meshes and points for fits: removes outliers, splits meshes at creases, and finds normals and neighbors.
+// Prepares meshes and points for fits: removes outliers, splits meshes at creases, and determines normals and
+// neighbors.
 #ifndef EQUIAFFINE_SRC_FIT_FIT_INPUT_H
 #define EQUIAFFINE_SRC_FIT_FIT_INPUT_H
 
@@ -28,7 +29,7 @@
 #include <utility>
 #include <vector>
 
-// GCC 14 warns that a copy of a vector in this header of CGAL leaves its memory, which it does not.
+// False positive of GCC 14 for a copy of a vector in this header of CGAL.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Warray-bounds"
@@ -41,7 +42,6 @@
 
 namespace equiaffine::internal {
 
-/// The mean of the neighbors of a point.
 inline Eigen::Vector3d mean_of_neighbors(const Data_points_3& data, Data_points_3::Index i) {
   const auto around = data.neighbors_of(i);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -49,9 +49,10 @@ inline Eigen::Vector3d mean_of_neighbors(const Data_points_3& data, Data_points_
   return mean;
 }
 
-/// Whether a point is an outlier: away from the mean of its neighbors and theirs by more than 1.5 times their mean
-/// distance from it, and from each neighbor by more than 1.5 times the median distance between these and theirs. A
-/// corner of a solid, the apex of a flat cone, the center of a fan of long triangles and a point at a border are none.
+/// Whether a point is an outlier: its distance from the mean of its neighbors and their neighbors is more than 1.5
+/// times their mean distance from it, and its distance from each neighbor is more than 1.5 times the median distance
+/// between these and their neighbors. A corner of a solid, the apex of a flat cone, the center of a fan of long
+/// triangles, and a border point are not outliers.
 inline bool is_outlier(const Data_points_3& data, Data_points_3::Index i) {
   constexpr double much = 1.5;
   constexpr std::size_t enough = 3; // neighbors
@@ -81,15 +82,15 @@ inline bool is_outlier(const Data_points_3& data, Data_points_3::Index i) {
   return (points[i] - mean).norm() > much * radius;
 }
 
-/// One flag for each point.
+/// One flag per point.
 inline std::vector<char> outliers(const Data_points_3& data) {
   std::vector<char> result(data.size());
   for (std::size_t i = 0; i < data.size(); ++i) result[i] = is_outlier(data, Data_points_3::Index(i));
   return result;
 }
 
-/// Leaves the edges between points that are no outliers, and returns whether there were others. Points without
-/// neighbors get no fit and count in none.
+/// Removes the edges of outliers, and returns whether there were any. Points without neighbors get no fit and do not
+/// influence any.
 inline bool drop_outliers(const std::vector<char>& is_outlier, std::vector<Data_points_3::Edge>& edges) {
   return std::erase_if(edges, [&](const auto& edge) {
            const auto is_one = [&](Data_points_3::Index i) { return i < is_outlier.size() && is_outlier[i]; };
@@ -97,7 +98,7 @@ inline bool drop_outliers(const std::vector<char>& is_outlier, std::vector<Data_
          }) > 0;
 }
 
-/// The edges of polygons, once each.
+/// The edges of polygons, each once.
 inline std::vector<Data_points_3::Edge> edges_of(const std::vector<std::vector<Data_points_3::Index>>& faces) {
   std::vector<Data_points_3::Edge> edges;
   for (const auto& face : faces)
@@ -108,10 +109,9 @@ inline std::vector<Data_points_3::Edge> edges_of(const std::vector<std::vector<D
   return edges;
 }
 
-/// Vertices of a mesh with the polygons between them. Neighbors are the ends of edges, and normals are the sums of
-/// those of the faces around, weighted by area. The surface comes apart at creases, edges that bend by more than an
-/// angle in degrees: the points on them are data of each side, those of all sides but the largest one behind the
-/// vertices. Outliers have no neighbors.
+/// Prepares a mesh. Neighbors are the ends of edges, and normals are area-weighted sums of face normals. The surface
+/// is split at creases, that is, edges that bend by more than an angle in degrees: points on creases are duplicated
+/// for each side. The copies for all sides but the largest follow the vertices. Outliers have no neighbors.
 inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices,
                                     const std::vector<std::vector<Data_points_3::Index>>& faces, double feature_angle) {
   std::vector<Data_points_3::Edge> edges = edges_of(faces);
@@ -121,7 +121,7 @@ inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices
   for (const auto& p : vertices) data.points.push_back(result.normalization(p));
   set_neighbors(data, edges);
   const std::vector<char> is_outlier = outliers(data);
-  std::vector<Eigen::Vector3d> without_outliers = vertices; // which would bend faces and make creases around them
+  std::vector<Eigen::Vector3d> without_outliers = vertices; // outliers would bend faces, and cause creases around them
   for (std::size_t i = 0; i < vertices.size(); ++i)
     if (is_outlier[i])
       without_outliers[i] = result.normalization.inverse(mean_of_neighbors(data, Data_points_3::Index(i)));
@@ -147,8 +147,8 @@ inline Normalized_data data_of_mesh(const std::vector<Eigen::Vector3d>& vertices
   return result;
 }
 
-/// Replaces the normals that the faces around the vertices have by given ones, but for those that differ by more than
-/// 60 degrees: at a crease a vertex has one normal, and two sides.
+/// Replaces normals computed from faces by given ones, except for those that differ by more than 60 degrees: at a
+/// crease a vertex has one normal, but two sides.
 inline void improve_normals(Normalized_data& normalized, const std::vector<Eigen::Vector3d>& given) {
   constexpr double least_cosine = 0.5;
   const Eigen::Matrix3d inverse_transpose = normalized.normalization.matrix.inverse().transpose();
@@ -160,12 +160,11 @@ inline void improve_normals(Normalized_data& normalized, const std::vector<Eigen
 
 constexpr std::size_t number_of_nearest = 16;
 
-/// The length of the edges of a triangulation of equilateral triangles, where 1 is the radius of a disk that has as
-/// many points as vertices: the square root of 2 pi / sqrt(3). The mean distance to the n nearest points is 2/3
-/// sqrt(n).
+/// The edge length of a triangulation by equilateral triangles if a disk of radius 1 contains one vertex on average:
+/// sqrt(2 pi / sqrt(3)). The mean distance to the n nearest points is then 2/3 sqrt(n).
 constexpr double mesh_edge = 1.9046;
 
-/// Returns the edges from every point to its nearest others.
+/// Returns the edges from every point to its nearest neighbors.
 inline std::vector<Data_points_3::Edge> edges_to_nearest(bool in_threads, const std::vector<Eigen::Vector3d>& points) {
   const Point_tree_3 tree(points);
   std::vector<std::vector<Data_points_3::Index>> nearest(points.size());
@@ -179,7 +178,7 @@ inline std::vector<Data_points_3::Edge> edges_to_nearest(bool in_threads, const 
   return edges;
 }
 
-/// Sets the normals to the directions in which the neighbors are spread the least.
+/// Sets the normals to the directions of smallest spread of the neighbors.
 inline void set_normals_by_neighbors(bool in_threads, Data_points_3& data) {
   data.normals.assign(data.size(), Eigen::Vector3d::Zero());
   parallel_for(
@@ -196,8 +195,8 @@ inline void set_normals_by_neighbors(bool in_threads, Data_points_3& data) {
       256);
 }
 
-/// Turns normals so that those of neighbors agree, along a spanning tree of least differences of direction for each
-/// component, from its highest point, whose normal points up (Hoppe et al. 1992, section 3.3).
+/// Flips normals so that neighbors agree, along a minimum spanning tree of differences of direction for each
+/// component, starting at its highest point, whose normal points up (Hoppe et al. 1992, section 3.3).
 inline void orient_normals(Data_points_3& data) {
   using Index = Data_points_3::Index;
   std::vector<Index> highest_first(data.size());
@@ -205,7 +204,7 @@ inline void orient_normals(Data_points_3& data) {
   std::stable_sort(highest_first.begin(), highest_first.end(),
                    [&](Index i, Index j) { return data.points[i][2] > data.points[j][2]; });
   std::vector<bool> is_oriented(data.size());
-  using Step = std::tuple<double, Index, Index>; // the difference, the point, the one it is reached from
+  using Step = std::tuple<double, Index, Index>; // difference, point, previous point
   std::priority_queue<Step, std::vector<Step>, std::greater<Step>> steps;
   for (const Index start : highest_first) {
     if (is_oriented[start]) continue;
@@ -223,9 +222,9 @@ inline void orient_normals(Data_points_3& data) {
   }
 }
 
-/// Points without faces, all different. Neighbors are the nearest points, first as they are given and then in the
-/// coordinates in which the edges found at first have no preferred direction. Outliers have no neighbors. Normals that
-/// are not given are estimated.
+/// Prepares distinct points without faces. Neighbors are the nearest points, first in the given coordinates, and
+/// then in those in which the edges found first have no preferred direction. Outliers have no neighbors. Normals are
+/// estimated unless given.
 inline Normalized_data data_of_points(bool in_threads, const std::vector<Eigen::Vector3d>& points,
                                       const std::vector<Eigen::Vector3d>& normals = {},
                                       Normal_orientation orientation = Normal_orientation::UNORIENTED) {
@@ -246,8 +245,8 @@ inline Normalized_data data_of_points(bool in_threads, const std::vector<Eigen::
   return result;
 }
 
-/// The data points, and which of them each given point is: none for a mesh, whose vertices come first, in their order,
-/// and behind them others at creases.
+/// The data points, and the data point of each given point. `positions` is empty for a mesh: its vertices come
+/// first, in their order, followed by the copies at creases.
 struct Fit_input_3 {
   Normalized_data data;
   std::vector<std::uint32_t> positions;
@@ -260,7 +259,7 @@ inline Fit_input_3 fit_input_of_mesh(const Fit_data_3& given, double feature_ang
   return result;
 }
 
-/// Equal points become one: returns which one each point is, and keeps the first of each kind in `points`.
+/// Merges equal points: keeps the first of each in `points`, and returns the new index of every point.
 inline std::vector<std::uint32_t> merge_equal_points(std::vector<Eigen::Vector3d>& points,
                                                      std::vector<Eigen::Vector3d>& normals) {
   const std::vector<std::uint32_t> first = first_of_equal(points);
@@ -289,7 +288,7 @@ inline Fit_input_3 fit_input_of_points(bool in_threads, Fit_data_3 given, Normal
 
 using Soup_point = CGAL::Simple_cartesian<double>::Point_3;
 
-/// Returns which point of `repaired` each point is. One that is in no polygon any more is appended.
+/// Returns the index in `repaired` of each point. Points that are no longer in any polygon are appended.
 inline std::vector<std::uint32_t> positions_after_repair(const std::vector<Soup_point>& points,
                                                          std::vector<Soup_point>& repaired) {
   std::map<Soup_point, std::uint32_t> position;
@@ -303,8 +302,8 @@ inline std::vector<std::uint32_t> positions_after_repair(const std::vector<Soup_
   return result;
 }
 
-/// The data points are the points without those that come again, in any order; a point where sheets meet is data of
-/// each of them, and gets what the first says, or at a crease the largest one.
+/// The data points are the distinct points in any order. A point where sheets meet is duplicated for each sheet. Its
+/// result is that of the first copy, or at a crease of the largest part.
 inline Fit_input_3 fit_input_of_soup(const Fit_data_3& given, double feature_angle) {
   std::vector<Soup_point> points;
   for (const auto& p : given.points) points.emplace_back(p[0], p[1], p[2]);

@@ -21,7 +21,7 @@
 
 namespace equiaffine::internal {
 
-/// The weight of a point in a fit, at a distance from the center given in radii: 1 - distance^2, and not quite zero.
+/// The weight of a point at a distance, in radii, from the center: 1 - distance^2, but always positive.
 inline double fit_weight(double squared_distance) { return std::max(1e-9, 1 - squared_distance); }
 
 /// The number of monomials x^i y^j z^k of total degree up to `degree`.
@@ -29,23 +29,21 @@ constexpr Eigen::Index number_of_monomials_3(int degree) {
   return Eigen::Index((degree + 1) * (degree + 2) * (degree + 3) / 6);
 }
 
-/// The position of x^i y^j z^k among monomials that are ordered by degree, then by descending i and j.
+/// The position of x^i y^j z^k among monomials ordered by degree, then by descending i and j.
 constexpr Eigen::Index position_of_monomial(int i, int j, int k) {
   const int n = i + j + k, s = n - i;
   return (n > 0 ? number_of_monomials_3(n - 1) : 0) + Eigen::Index(s * (s + 1) / 2 + k);
 }
 
-/// Sums over the points of a ball, of weights times monomials and products of components of the normal, from which
-/// polynomials of degree d have their normal equations. There are far fewer of them than products of pairs of
-/// monomials.
+/// Weighted sums over the points of a ball of monomials and products of normal components, from which the normal
+/// equations of polynomials of degree d are assembled. They are far fewer than the products of pairs of monomials.
 struct Monomial_moments {
   Eigen::VectorXd of_points; ///< of monomials up to degree 2 d
-  /// These are of monomials up to degree 2 d - 2 times n_x n_x, n_x n_y, n_x n_z, n_y n_y, n_y n_z, n_z n_z, n_x, n_y
-  /// and n_z.
+  /// Of monomials up to degree 2 d - 2 times n_x n_x, n_x n_y, n_x n_z, n_y n_y, n_y n_z, n_z n_z, n_x, n_y and n_z.
   Eigen::Matrix<double, Eigen::Dynamic, 9> of_normals;
 };
 
-/// The moments for polynomials of that degree, with coordinates in radii about the center.
+/// The moments for polynomials of that degree, with coordinates in radii around the center.
 inline Monomial_moments monomial_moments(const Data_points_3& data, std::span<const Data_points_3::Index> ball,
                                          const Eigen::Vector3d& center, double radius, int degree) {
   constexpr Eigen::Index block = 64;
@@ -64,7 +62,7 @@ inline Monomial_moments monomial_moments(const Data_points_3& data, std::span<co
       normals.row(l) << n[0] * n[0], n[0] * n[1], n[0] * n[2], n[1] * n[1], n[1] * n[2], n[2] * n[2], n[0], n[1], n[2];
       values(l, 0) = fit_weight(p.squaredNorm());
     }
-    Eigen::Index next = 1, before = 0; // the first monomials of this degree and of the one before
+    Eigen::Index next = 1, before = 0; // the first monomials of this degree and of the previous one
     for (Eigen::Index n = 1; n <= 2 * degree; ++n) {
       const auto raise = [&](Eigen::Index from, Eigen::Index axis) {
         values.col(next++) = values.col(from).cwiseProduct(local.col(axis));
@@ -83,8 +81,9 @@ inline Monomial_moments monomial_moments(const Data_points_3& data, std::span<co
 
 constexpr int maximal_space_degree = 7;
 
-/// The monomials x^i y^j z^k of total degree n up to 7, ordered by degree, each times the root of n! / (i! j! k!). Sums
-/// of squares of coefficients beside them do not change when space is rotated (Bombieri's norm).
+/// The monomials x^i y^j z^k of total degree n up to 7, ordered by degree, each times the square root of n! / (i! j!
+/// k!). With respect to this basis the sum of the squared coefficients is invariant under rotations (Bombieri's
+/// norm).
 class Bombieri_basis_3 {
 public:
   static constexpr std::size_t size = number_of_coefficients(Fit_family::SPACE, maximal_space_degree);
@@ -167,12 +166,12 @@ private:
 
 inline const Bombieri_basis_3 bombieri_basis_3;
 
-/// The rows of points of a ball: that f is zero there, and that its derivative along the normal is 1.
+/// The conditions at the points of a ball: f is zero, and its derivative along the normal is 1.
 struct Space_system {
-  Eigen::MatrixXd values, derivatives; ///< a column for each point, times the root of its weight
+  Eigen::MatrixXd values, derivatives; ///< a column per point, times the square root of its weight
   Eigen::VectorXd roots_of_weights;
-  Eigen::VectorXd noise;  ///< in radii; empty if it is not known
-  std::size_t points = 0; ///< of the ball, of which some may be left out here
+  Eigen::VectorXd noise;  ///< in radii; empty if unknown
+  std::size_t points = 0; ///< of the ball, including those without a column here
 
   double part() const { return double(values.cols()) / double(points); }
 };
@@ -228,8 +227,8 @@ inline std::vector<double> space_coefficients(const Eigen::VectorXd& bombieri, i
   return coefficients;
 }
 
-/// Moves from the center of a patch along gradients to its zero set, within a quarter of the radius. Both are local.
-/// `jet` becomes the one there.
+/// Moves from the center of a patch along gradients to its zero set, within a quarter of the radius. Both points are
+/// in local coordinates. `jet` is set to the jet at the result.
 inline std::optional<Eigen::Vector3d> foot_of_center(const Patch_3& patch, Jet_3<double>& jet) {
   const auto foot = foot_on_surface(
       Eigen::Vector3d::Zero(), [&](const Eigen::Vector3d& p) { return jet = space_taylor<4>(patch, p); },
@@ -237,7 +236,7 @@ inline std::optional<Eigen::Vector3d> foot_of_center(const Patch_3& patch, Jet_3
   return foot ? std::optional(foot->before) : std::nullopt;
 }
 
-/// Returns how numbers at a point change with the coefficients of the basis, a column for each number.
+/// The derivatives of numbers at a point with respect to the coefficients of the basis, one number per column.
 inline Eigen::MatrixXd space_gradient(const Number_gradient& gradient, const Eigen::Vector3d& p, std::size_t count) {
   std::array<std::array<std::array<double, 5>, maximal_space_degree + 1>, 3> taylor = {}; // of t^n along every axis
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -259,7 +258,7 @@ inline Eigen::MatrixXd space_gradient(const Number_gradient& gradient, const Eig
 }
 
 /// Completes the fit of one degree from the leading part of the Cholesky factor `lower` of the normal equations.
-/// `traces` has the parts of the coefficients in the number of degrees of freedom.
+/// `traces` contains the contributions of the coefficients to the number of degrees of freedom.
 inline std::optional<Local_fit_3> space_fit(const Space_system& system, const Eigen::MatrixXd& lower,
                                             const Eigen::VectorXd& reduced, const Eigen::VectorXd& traces,
                                             const Eigen::Vector3d& center, double radius, int degree,
@@ -307,7 +306,7 @@ inline std::optional<Local_fit_3> space_fit(const Space_system& system, const Ei
   return fit;
 }
 
-/// Returns whether points spread in two directions, by a hundredth at least, and not along a curve alone.
+/// Returns whether points spread in two directions, by at least a hundredth, and not only along a curve.
 inline bool spread_over_surface(const Data_points_3& data, std::span<const Data_points_3::Index> ball) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const auto i : ball) {
@@ -318,7 +317,7 @@ inline bool spread_over_surface(const Data_points_3& data, std::span<const Data_
   return squares[1] > 1e-4 * squares[2];
 }
 
-/// Returns at most `most` of the points of a ball, as evenly spread as these are.
+/// Returns at most `most` of the points of a ball, evenly thinned.
 inline std::vector<Data_points_3::Index> thinned(const std::vector<Data_points_3::Index>& ball, std::size_t most) {
   if (ball.size() <= most) return ball;
   std::vector<Data_points_3::Index> result(most);
@@ -326,10 +325,10 @@ inline std::vector<Data_points_3::Index> thinned(const std::vector<Data_points_3
   return result;
 }
 
-/// Fits polynomials in space of several degrees, at most `maximal_space_degree`, and with several weights of the
-/// conditions on normals, to the points of a connected ball. A degree is left out where there are not 1.2 points to a
-/// coefficient. Some hundreds of the points say what residuals are and how noise changes the result. Estimates are made
-/// on request.
+/// Fits polynomials in space of several degrees, at most `maximal_space_degree`, with several weights of the
+/// conditions on normals, to the points of a connected ball. Degrees with fewer than 1.2 points per coefficient are
+/// skipped. Residuals and the effect of noise are computed from some hundreds of the points. Computes estimates if
+/// `request` is given.
 inline std::vector<Local_fit_3> fit_spaces(const Data_points_3& data, Data_points_3::Index center, double radius,
                                            std::span<const int> degrees, std::span<const double> weights_of_normals,
                                            const Number_request* request = nullptr) {

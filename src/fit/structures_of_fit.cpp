@@ -18,7 +18,7 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// Moves a point along gradients to the zero set of a patch, if that is near.
+/// Moves a point along gradients to the zero set of a patch, if that is close.
 std::optional<Eigen::Vector3d> foot_on_patch(const Patch_3& patch, const Eigen::Vector3d& p) {
   const auto foot = foot_on_surface(
       p, [&](const Eigen::Vector3d& q) { return patch.taylor<1>(q); },
@@ -26,20 +26,22 @@ std::optional<Eigen::Vector3d> foot_on_patch(const Patch_3& patch, const Eigen::
   return foot ? std::optional(foot->point) : std::nullopt;
 }
 
-/// The distance of the centers of fits as a part of their radius: fits with small radii are made at every point.
+/// The distance between the centers of fits relative to their radius. With small radii there are fits at every
+/// point.
 constexpr double distance_of_direct_fits = 0.1;
 
-/// The same at a given scale, where the curvatures of a point are those of the fit around it: on a scan, K of a fit
-/// whose center is a tenth of the radius away differs from them by as much as noise makes.
+/// The same at a given scale, where the curvatures at a point are those of the fit around it: on a scan, K of a fit
+/// with a center a tenth of the radius away differs by as much as the effect of noise.
 constexpr double distance_of_direct_fits_at_scale = 0.02;
 
-/// Refuses data in units in which affine curvatures, and what they are computed from, leave double precision.
+/// Rejects data in units in which affine curvatures, or their intermediate results, overflow or underflow double
+/// precision.
 void check_extent(const Fitted_data_3& fit) {
   check_argument(Extent_of_fit::has(fit.diagonal()),
-                 "the points lie in a box with a diagonal below 1e-40 or beyond 1e40: choose another unit");
+                 "the diagonal of the bounding box of the points is below 1e-40 or above 1e40: choose another unit");
 }
 
-/// The structure at a data point by the fit around it.
+/// The structure at a data point, from the fit around it.
 Fitted_structure_3<double> structure_at_point(const Fitted_data_3& fit, Data_points_3::Index i,
                                               Orientation_of_level_set orientation) {
   check_extent(fit);
@@ -83,7 +85,7 @@ std::vector<Fitted_structure_3<double>> structures_of_data(bool in_threads, Fit_
   const Fitted_data_3 fit(in_threads, std::move(input.data), options);
   auto structures = structures_of_fit(in_threads, fit, orientation);
   if (!is_mesh) return elements_at(structures, input.positions);
-  structures.resize(count); // without points of creases
+  structures.resize(count); // drops the copies at creases
   return structures;
 }
 

@@ -21,7 +21,7 @@
 
 namespace equiaffine::internal::expression {
 
-/// Hands out slots for intermediate results and takes them back. The slot that was given back last is reused first.
+/// Allocates slots for intermediate results. The slot that was returned last is reused first.
 class Slot_pool {
 public:
   std::uint32_t take() {
@@ -40,13 +40,13 @@ private:
   std::uint32_t number_of_slots_ = 0;
 };
 
-using Node = std::uint32_t; ///< nodes 0, 1, 2 are x, y, z; operands precede the nodes that use them
+using Node = std::uint32_t; ///< nodes 0, 1, 2 are x, y, z; operands precede their users
 
-/// The last reader of a node that nothing reads, and of a root.
+/// The last readers of an unused node, and of a root.
 inline constexpr Node no_reader = std::numeric_limits<Node>::max(), end_of_tape = no_reader - 1;
 
-/// Returns for each node the last one that reads it: end_of_tape for a root, and no_reader for a node that the roots do
-/// not need.
+/// Returns the last node that reads each node: end_of_tape for a root, and no_reader for a node that no root depends
+/// on.
 inline std::vector<Node> last_readers(std::span<const Instruction> nodes, std::span<const Node> roots) {
   std::vector<Node> last_reader(nodes.size(), no_reader);
   for (const Node root : roots) last_reader[root] = end_of_tape;
@@ -57,18 +57,18 @@ inline std::vector<Node> last_readers(std::span<const Instruction> nodes, std::s
   return last_reader;
 }
 
-/// Returns the tape that computes `roots`. The operands of `nodes` are nodes. The tape leaves out nodes that the roots
-/// do not need and reuses the slot of a node after the last instruction that reads it.
+/// Returns the tape that computes `roots`. The operands of `nodes` are nodes. Unused nodes are omitted, and the slot of
+/// a node is reused after the last instruction that reads it.
 inline Tape tape_of(std::span<const Instruction> nodes, std::span<const Node> roots) {
   const std::vector<Node> last_reader = last_readers(nodes, roots);
-  std::vector<std::uint32_t> place(nodes.size()); // the operand that holds the value of a node
+  std::vector<std::uint32_t> place(nodes.size()); // the operand that contains the value of a node
   for (std::uint32_t v = 0; v < number_of_variables; ++v) place[v] = v;
   Slot_pool slots;
   Tape tape;
   for (Node n = number_of_variables; n < nodes.size(); ++n) {
     if (last_reader[n] == no_reader) continue;
     Instruction i = nodes[n];
-    i.result = place[n] = slots.take(); // before the slots of the operands are given back: it must be none of them
+    i.result = place[n] = slots.take(); // before give_back(), since it must differ from the operands
     if (i.opcode != Opcode::CONSTANT) {
       const auto is_done = [&](Node operand) { return operand >= number_of_variables && last_reader[operand] == n; };
       if (is_done(i.a)) slots.give_back(place[i.a]);
@@ -83,8 +83,9 @@ inline Tape tape_of(std::span<const Instruction> nodes, std::span<const Node> ro
   return tape;
 }
 
-/// Builds a tape bottom-up. Equal subexpressions become one node and constant ones one number. Only identities that
-/// hold bit for bit in IEEE arithmetic are applied (up to the sign of a NaN), so the tape computes what the text says.
+/// Builds a tape bottom-up. Equal subexpressions become one node, and constant subexpressions one number. Only
+/// identities that hold bit for bit in IEEE arithmetic are applied (up to the sign of a NaN), so that results are those
+/// of the text.
 class Tape_builder {
 public:
   using Node = expression::Node;
@@ -133,13 +134,13 @@ public:
     return value(a) == std::numbers::e ? node(Opcode::EXP, b, b) : node(Opcode::POWER, a, b);
   }
 
-  /// The node of a function of two arguments, or of one, in which case a == b.
+  /// The node of a function of two arguments, or of one (a == b).
   Node function(Opcode opcode, Node a, Node b) {
     if (a == b && (opcode == Opcode::MIN || opcode == Opcode::MAX)) return a;
     return opcode == Opcode::POWER ? power(a, b) : node(opcode, a, b);
   }
 
-  /// The node that does with the operands `a` and `b` what an instruction of another tape does with its own.
+  /// The node of an instruction of another tape, with the operands `a` and `b`.
   Node repeat(const Instruction& i, Node a, Node b) {
     return i.opcode == Opcode::CONSTANT ? constant(i.constant) : node(i.opcode, a, b, i.constant);
   }
@@ -149,7 +150,7 @@ public:
 private:
   using Key = std::tuple<Opcode, Node, Node, std::uint64_t>;
 
-  /// The node of an instruction, which is an earlier one if the instruction occurred before.
+  /// The node of an instruction, shared with earlier equal instructions.
   Node intern(const Instruction& i) {
     const Key key(i.opcode, i.a, i.b, bit_cast<std::uint64_t>(i.constant));
     const auto [position, is_new] = known_.try_emplace(key, static_cast<Node>(nodes_.size()));
@@ -157,7 +158,7 @@ private:
     return position->second;
   }
 
-  /// The node of an instruction, or of its result if the operands are constants.
+  /// The node of an instruction, or of its value if the operands are constants.
   Node node(Opcode opcode, Node a, Node b, double c = 0) {
     const Instruction instruction{opcode, 0, a, b, c};
     if (!value(a) || !value(b)) return intern(instruction);
@@ -167,10 +168,10 @@ private:
     return constant(result);
   }
 
-  /// The order of the operands is normalized, so that a + b and b + a are one node.
+  /// Sorts the operands, so that a + b and b + a are one node.
   Node commutative(Opcode opcode, Node a, Node b) { return node(opcode, std::min(a, b), std::max(a, b)); }
 
-  /// Only -0 is the neutral element of addition: for x = -0, x + 0 is +0.
+  /// Only -0 is neutral in additions: for x = -0, x + 0 is +0.
   Node add_constant(Node a, double c) { return c == 0 && std::signbit(c) ? a : node(Opcode::ADD_CONSTANT, a, a, c); }
 
   Node multiply_constant(Node a, double c) { return c == 1 ? a : node(Opcode::MULTIPLY_CONSTANT, a, a, c); }
@@ -179,7 +180,7 @@ private:
     if (n < 0) return divide(constant(1), integer_power(a, -n));
     if (n == 0) return constant(1);
     if (n == 1) return a;
-    if (n % 2 == 0 && nodes_[a].opcode == Opcode::ABS) a = nodes_[a].a; // smooth at 0, and the same number
+    if (n % 2 == 0 && nodes_[a].opcode == Opcode::ABS) a = nodes_[a].a; // smooth at 0, with the same value
     return n == 2 ? node(Opcode::SQUARE, a, a) : node(Opcode::INTEGER_POWER, a, a, n);
   }
 

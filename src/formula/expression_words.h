@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The names and characters of the language of expressions, and the messages about texts that are not expressions.
+// The names and characters of the language of expressions, and the messages of parse errors.
 #ifndef EQUIAFFINE_SRC_FORMULA_EXPRESSION_WORDS_H
 #define EQUIAFFINE_SRC_FORMULA_EXPRESSION_WORDS_H
 
@@ -22,7 +22,7 @@
 
 namespace equiaffine::internal::expression {
 
-/// A function of the language, with its numbers of arguments.
+/// A function of the language, with its minimal and maximal number of arguments.
 struct Function {
   std::string_view name;
   Opcode opcode;
@@ -61,7 +61,7 @@ inline constexpr std::array<std::string_view, number_of_variables> variables = {
 inline constexpr std::array known_constants = {std::pair<std::string_view, double>("pi", std::numbers::pi),
                                                std::pair<std::string_view, double>("e", std::numbers::e)};
 
-/// Signs that are not ASCII, each with what to write instead.
+/// Non-ASCII characters and their replacements.
 inline constexpr std::array foreign_signs = {std::pair<std::string_view, std::string_view>("\u00b2", "^2"),
                                              std::pair<std::string_view, std::string_view>("\u00b3", "^3"),
                                              std::pair<std::string_view, std::string_view>("\u2074", "^4"),
@@ -77,13 +77,13 @@ inline const Function* find_function(std::string_view name) {
   return nullptr;
 }
 
-/// Whether a name has a meaning in every expression.
+/// Whether a name has a predefined meaning.
 inline bool is_reserved(std::string_view name) {
   return find_function(name) || std::find(variables.begin(), variables.end(), name) != variables.end() ||
          std::any_of(known_constants.begin(), known_constants.end(), [&](const auto& c) { return c.first == name; });
 }
 
-// The functions of <cctype> depend on the locale, and these must not.
+// Unlike the functions of <cctype>, these do not depend on the locale.
 inline bool is_digit(char c) { return '0' <= c && c <= '9'; }
 inline bool is_letter(char c) { return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || c == '_'; }
 inline bool is_space(char c) { return c == ' ' || ('\t' <= c && c <= '\r'); }
@@ -100,19 +100,19 @@ inline std::string shortened(std::string_view word) {
   return concatenated({word.substr(0, longest), word.size() > longest ? "..." : ""});
 }
 
-// It is not called `quoted` because argument-dependent lookup would find std::quoted, too.
+// Not called `quoted`, since argument-dependent lookup would also find std::quoted.
 inline std::string in_quotes(std::string_view word) { return concatenated({"'", shortened(word), "'"}); }
 
-/// A character as a message shows it: in quotes, or as its code if it cannot be printed.
+/// A character for a message: in quotes, or its code if it is not printable.
 inline std::string character(char c) {
   if (is_printable(c)) return in_quotes({&c, 1});
   constexpr std::string_view digits = "0123456789ABCDEF";
   const unsigned code = static_cast<unsigned char>(c);
-  return concatenated({code < 0x80 ? "control character" : "character that is not ASCII,", " byte 0x",
+  return concatenated({code < 0x80 ? "control character," : "non-ASCII character,", " byte 0x",
                        digits.substr(code / 16, 1), digits.substr(code % 16, 1)});
 }
 
-/// The number of arguments of a function in words, for instance "2 or more arguments".
+/// The number of arguments of a function, for example "2 or more arguments".
 inline std::string arity(const Function& f) {
   const bool is_open = f.maximal_arguments == any_number, is_single = f.maximal_arguments == 1;
   return concatenated(
@@ -125,8 +125,8 @@ inline std::string function_names() {
   return names;
 }
 
-/// The text around a position, cut to about 100 columns, and under it a caret. Characters that are not printable ASCII
-/// are replaced, so that the caret is in the right column and a terminal is safe.
+/// The text around a position, cut to about 100 columns, with a caret below the position. Characters that are not
+/// printable ASCII are replaced, which keeps the caret in the right column and is safe on terminals.
 inline std::string excerpt_at(std::string_view text, std::size_t position) {
   constexpr std::size_t width = 94, before = 60;
   const std::size_t last_start = text.size() - std::min(width, text.size());
@@ -147,8 +147,8 @@ inline std::string sentence_at(std::size_t position, std::string_view problem, s
   throw Input_error(sentence_at(position, problem, advice), excerpt_at(text, position));
 }
 
-/// The number of letters to insert, delete or replace to make `a` from `b` (Levenshtein: Binary codes capable of
-/// correcting deletions, insertions, and reversals, 1966). Upper and lower case count as equal.
+/// The number of letters to insert, delete or replace to turn `b` into `a`, ignoring case (Levenshtein: Binary codes
+/// capable of correcting deletions, insertions, and reversals, 1966).
 inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   std::vector<std::size_t> row(b.size() + 1);
@@ -163,7 +163,7 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-/// Names that other languages use, and what they are called here.
+/// Names in other languages, and the corresponding names here.
 inline constexpr std::array foreign_names = {std::pair<std::string_view, std::string_view>("ln", "log"),
                                              std::pair<std::string_view, std::string_view>("arcsin", "asin"),
                                              std::pair<std::string_view, std::string_view>("arccos", "acos"),
@@ -174,7 +174,7 @@ inline constexpr std::array foreign_logarithms = {
     std::pair<std::string_view, std::string_view>("log10", "log(...)/log(10)"),
     std::pair<std::string_view, std::string_view>("log2", "log(...)/log(2)")};
 
-/// The known name that was probably meant, or nothing. Of names that are equally near the first one counts.
+/// The known name that was probably intended, or an empty string. Of equally near names the first one is returned.
 inline std::string near_name(std::string_view name, const std::map<std::string, double>& constants) {
   std::size_t best = name.size() / 3 + 1;
   std::string_view nearest;
@@ -199,25 +199,24 @@ inline bool is_identifier(std::string_view name) {
          std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c); });
 }
 
-/// The text with a question mark for every character that cannot be printed.
+/// The text with non-printable characters replaced by question marks.
 inline std::string in_ascii(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return !is_printable(c); }, '?');
   return text;
 }
 
-/// Throws Input_error for names of constants that cannot be used and for values that are not finite.
+/// Throws Input_error if a constant has an invalid name or a value that is not finite.
 inline void check_constants(const std::map<std::string, double>& constants) {
   for (const auto& [name, value] : constants) {
     if (!is_identifier(name))
-      throw Input_error(concatenated(
-          {in_quotes(in_ascii(name)), " cannot name a constant: use letters, digits and _, and no digit first"}));
+      throw Input_error(concatenated({in_quotes(in_ascii(name)),
+                                      " is not a valid name of a constant: use letters, digits and _, and do not start "
+                                      "with a digit"}));
     if (is_reserved(name))
-      throw Input_error(
-          concatenated({"constant ", in_quotes(name), " hides a name that expressions know: choose another name"}));
+      throw Input_error(concatenated({"the name of constant ", in_quotes(name), " is reserved: choose another name"}));
     if (!std::isfinite(value))
-      throw Input_error(
-          concatenated({"constant ", in_quotes(name), " is not a finite number: give it a finite value"}));
+      throw Input_error(concatenated({"constant ", in_quotes(name), " is not finite: set it to a finite value"}));
   }
 }
 

@@ -64,7 +64,7 @@ private:
     return left;
   }
 
-  /// Every nesting of parentheses, arguments and exponents passes here, so this bounds the depth of the stack.
+  /// Every nesting of parentheses, arguments and exponents calls this, so it limits the depth of the stack.
   Node factor() {
     bool is_negative = false;
     for (char sign = peek(); sign == '+' || sign == '-'; sign = peek()) {
@@ -72,8 +72,7 @@ private:
       ++position_;
     }
     if (++depth_ > maximal_depth)
-      fail(position_, "too deep nesting",
-           concatenated({"at most ", std::to_string(maximal_depth), " levels are possible"}));
+      fail(position_, "too deep nesting", concatenated({"use at most ", std::to_string(maximal_depth), " levels"}));
     const Node result = power();
     --depth_;
     return is_negative ? builder_.negate(result) : result;
@@ -103,11 +102,12 @@ private:
     double value = 0;
     const char* const first = text_.data() + position_;
     const auto [last, error] = from_chars(first, text_.data() + text_.size(), value);
-    if (error == std::errc::invalid_argument) fail(position_, "a point without digits", "write a number such as 0.5");
+    if (error == std::errc::invalid_argument)
+      fail(position_, "decimal point without digits", "write a number such as 0.5");
     token_ = text_.substr(position_, static_cast<std::size_t>(last - first));
     if (error == std::errc::result_out_of_range)
       fail(position_, concatenated({"number ", in_quotes(token_), " out of range"}),
-           "magnitudes from 1e-307 to 1e308 are possible");
+           "use a magnitude from 1e-307 to 1e308");
     position_ += token_.size();
     return builder_.constant(value);
   }
@@ -126,8 +126,8 @@ private:
     return builder_.constant(found->second);
   }
 
-  /// A call of the function whose name begins at `start`; the first two arguments are combined, then the result with
-  /// each further one.
+  /// A call of the function whose name starts at `start`. The first two arguments are combined, then the result with
+  /// each further argument.
   Node call(const Function& function, std::size_t start) {
     const std::string name = in_quotes(function.name);
     if (peek() != '(')
@@ -144,7 +144,7 @@ private:
     return result;
   }
 
-  /// The arguments between the parentheses at the current position.
+  /// The arguments in the parentheses at the current position.
   std::vector<Node> argument_list() {
     const std::size_t opening = position_++;
     std::vector<Node> arguments;
@@ -159,10 +159,10 @@ private:
     return arguments;
   }
 
-  /// Reads the ')' that belongs to the '(' at `opening`.
+  /// Reads the ')' that matches the '(' at `opening`.
   void close(std::size_t opening) {
     const char c = peek();
-    if (c == '\0' && at_end()) fail(opening, "'(' that is never closed", "add ')'");
+    if (c == '\0' && at_end()) fail(opening, "unclosed '('", "add ')'");
     if (c != ')') fail_after_operand();
     token_ = ")";
     ++position_;
@@ -171,8 +171,7 @@ private:
   /// Reports the operation at `column` if its result is a constant that is not finite.
   void check_finite(Node node, std::string_view operation, std::size_t column) const {
     if (const auto value = builder_.value(node); value && !std::isfinite(*value))
-      fail(column, concatenated({"result of ", in_quotes(operation), " that is not a finite number"}),
-           "check the constants it is applied to");
+      fail(column, concatenated({"non-finite result of ", in_quotes(operation)}), "check its constant operands");
   }
 
   [[noreturn]] void fail(std::size_t position, std::string_view problem, std::string_view advice) const {
@@ -186,13 +185,13 @@ private:
     if (peek() == '(')
       fail(start, concatenated({"unknown function ", name}), concatenated({question, "use one of ", function_names()}));
     throw Unknown_name_error(sentence_at(start, concatenated({"unknown name ", name}),
-                                         concatenated({question, "give it a value as a constant, or use x, y, z"})),
+                                         concatenated({question, "define it as a constant, or use x, y, z"})),
                              excerpt_at(text_, start), std::string(token_));
   }
 
   [[noreturn]] void fail_before_operand() {
     const char c = peek();
-    if (c == '=' && equation_sign_ != NONE) fail(position_, "second '='", "an equation is lhs = rhs");
+    if (c == '=' && equation_sign_ != NONE) fail(position_, "second '='", "write one equation, lhs = rhs");
     if (at_end()) fail(position_, "unexpected end", "a number, a name or '(' is missing");
     if (std::string_view("*/^,=)").find(c) != NONE)
       fail(position_, concatenated({"unexpected ", character(c)}), "a number, a name or '(' is missing before it");
@@ -202,10 +201,11 @@ private:
   [[noreturn]] void fail_after_operand() {
     const char c = peek();
     if (is_digit(c) || c == '.' || is_letter(c) || c == '(') fail_missing_operator();
-    if (c == ')') fail(position_, "')' that closes nothing", "remove it or add '('");
-    if (c == ',') fail(position_, "unexpected ','", "it separates the arguments of a function; decimals have a point");
-    if (c == '=' && equation_sign_ != NONE) fail(position_, "second '='", "an equation is lhs = rhs");
-    if (c == '=') fail(position_, "'=' inside parentheses", "an equation is lhs = rhs");
+    if (c == ')') fail(position_, "unmatched ')'", "remove it or add '('");
+    if (c == ',')
+      fail(position_, "unexpected ','", "use ',' only between arguments of a function, and '.' in decimal numbers");
+    if (c == '=' && equation_sign_ != NONE) fail(position_, "second '='", "write one equation, lhs = rhs");
+    if (c == '=') fail(position_, "'=' inside parentheses", "use '=' only between the sides of an equation");
     fail_character();
   }
 

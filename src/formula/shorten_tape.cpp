@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shortens a tape for a box, as Keeter does (Massively parallel rendering of complex closed-form implicit surfaces,
-// 2020, section 3.2): where intervals decide which operand min, max or abs returns, the others are not needed.
+// Shortens a tape for a box (Keeter: Massively parallel rendering of complex closed-form implicit surfaces, 2020,
+// section 3.2): if intervals determine which operand min, max or abs returns, the others are not needed.
 #include "formula/Tape_builder.h"
 #include <equiaffine/formula/internal/expression_evaluation.h>
 #include <equiaffine/formula/internal/expression_tape.h>
@@ -24,18 +24,19 @@ bool is_choice(const Instruction& i) {
   return i.opcode == Opcode::MIN || i.opcode == Opcode::MAX || i.opcode == Opcode::ABS;
 }
 
-/// What is known of an operand on a box: the node that computes it, the interval of its values, and whether it has a
-/// moderate value everywhere. The interval says nothing of the points where it has none.
+/// Properties of an operand on a box: the node that computes it, the interval of its values, and whether it has a
+/// moderate value everywhere. The interval does not cover points where the operand is undefined.
 struct Operand_on_box {
   std::uint32_t node = 0;
   Interval values;
   bool is_total = false;
 };
 
-/// Whether no way to compute a number overflows: jets compute quotients by reciprocals and lengths by squares.
+/// Whether no way to compute a function of these values overflows: jets use reciprocals for quotients, and squares for
+/// lengths.
 bool is_moderate(const Interval& values) { return values.lower() > -1e150 && values.upper() < 1e150; }
 
-/// Whether an instruction has a moderate value on all of a box if its operands have one.
+/// Whether an instruction has a moderate value on the whole box if its operands do.
 bool is_total(const Instruction& i, const Interval& a, const Interval& b, const Interval& result) {
   if (!is_moderate(result)) return false;
   switch (i.opcode) {
@@ -45,7 +46,7 @@ bool is_total(const Instruction& i, const Interval& a, const Interval& b, const 
   case Opcode::POWER: return a.lower() > 1e-150;
   case Opcode::ASIN:
   case Opcode::ACOS: return a.lower() >= -1 && a.upper() <= 1;
-  case Opcode::ATAN2: return !a.contains(0) || b.lower() > 0; // for atan2(-0, -1) is not atan2(0, -1)
+  case Opcode::ATAN2: return !a.contains(0) || b.lower() > 0; // since atan2(-0, -1) is not atan2(0, -1)
   case Opcode::FMOD: return !b.contains(0);
   case Opcode::DIVIDE: return is_moderate(Interval(1.0) / b);
   case Opcode::DIVIDE_CONSTANT: return is_moderate(Interval(1.0) / a);
@@ -54,8 +55,8 @@ bool is_total(const Instruction& i, const Interval& a, const Interval& b, const 
   }
 }
 
-/// Returns how many rounding errors the value of an instruction may have beyond those that its interval follows: a
-/// whole power is a product of many factors, and jets compute some functions from others.
+/// Returns the maximal number of rounding errors beyond those in the interval of an instruction: an integer power is a
+/// product of many factors, and jets compute some functions from others.
 double further_roundings(const Instruction& i) {
   switch (i.opcode) {
   case Opcode::INTEGER_POWER: return i.constant;
@@ -69,7 +70,7 @@ double further_roundings(const Instruction& i) {
   }
 }
 
-/// Returns an interval that contains the values of an instruction as numbers and as values of jets.
+/// Returns an interval that contains the values of an instruction, for numbers and for jets.
 Interval values_on_box(const Instruction& i, const Interval& a, const Interval& b) {
   Interval result;
   execute<1>(i, &a, &b, &result, 1);
@@ -82,8 +83,8 @@ Interval values_on_box(const Instruction& i, const Interval& a, const Interval& 
   return Interval(std::max(result.lower() - rounding, least), result.upper() + rounding);
 }
 
-/// Returns the operand that a choice returns at every point of the box, if it is always the same. Both operands must
-/// have moderate values everywhere: min and max are NaN where one of them is, and intervals do not follow signed
+/// Returns the operand that min, max or abs returns at every point of the box, if it is always the same. Both operands
+/// must have moderate values everywhere: min and max are NaN where an operand is, and intervals do not represent signed
 /// infinities.
 std::optional<std::uint32_t> decided(const Instruction& i, const Operand_on_box& a, const Operand_on_box& b) {
   if (!a.is_total || !b.is_total) return std::nullopt;

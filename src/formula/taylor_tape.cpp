@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Makes a tape that computes the Taylor coefficients of an expression. The expression is evaluated once on jets of
-// symbols, which leaves out what its structure makes zero or equal, as compile-time sparsity does for functions that
-// are written as code.
+// Builds a tape that computes the Taylor coefficients of an expression. The expression is evaluated once on jets of
+// symbols, which omits coefficients that are zero by structure and shares equal ones, like compile-time sparsity for
+// functions given as code.
 #include "formula/Tape_builder.h"
 #include <equiaffine/formula/internal/expression_evaluation.h>
 #include <equiaffine/formula/internal/expression_tape.h>
@@ -15,9 +15,9 @@
 
 namespace equiaffine::internal::expression {
 
-/// A number type that computes with constants and records everything else as nodes of a builder. The constants zero and
-/// one act as in exact arithmetic: 0 * a is 0 whatever the value of a. It is in no unnamed namespace, in which GCC 12
-/// merges functions of jets of different supports that have the same code, and then warns that they read out of bounds.
+/// A number type that computes with constants and records everything else as nodes of a builder. Zero and one act as in
+/// exact arithmetic: 0 * a is 0 for any value of a. Not in an unnamed namespace: there GCC 12 merges functions of jets
+/// with different supports if their code is equal, and then warns that they read out of bounds.
 class Symbol {
 public:
   using Node = Tape_builder::Node;
@@ -35,7 +35,7 @@ public:
 
   Node node(Tape_builder& builder) const { return builder_ ? node_ : builder.constant(value_); }
 
-  /// Whether both are known to be the same.
+  /// Whether both are the same constant or the same node.
   friend bool operator==(const Symbol& a, const Symbol& b) {
     return a.builder_ == b.builder_ && (a.builder_ ? a.node_ == b.node_ : a.value_ == b.value_);
   }
@@ -93,8 +93,8 @@ public:
 
   friend Symbol natural_power(const Symbol& a, unsigned n) { return apply(Opcode::POWER, a, double(n)); }
 
-  /// Chooses between the coefficients a and b by the order of u and v, as number/select.h does for ordered numbers,
-  /// but at run time. The value of the jet needs no choice here, see taylor_tape().
+  /// Chooses between the coefficients a and b by the order of u and v, like number/select.h for ordered numbers, but at
+  /// run time. Not used for coefficient 0; see taylor_tape().
   friend Symbol branch_or_kink(const Symbol& u, const Symbol& v, const Symbol& a, const Symbol& b, int) {
     if (a.is_constant(0) && b.is_constant(0)) return a;
     const Symbol order = apply(Opcode::ORDER, u, v);
@@ -106,7 +106,7 @@ public:
 private:
   bool is_constant(double constant) const { return !builder_ && value_ == constant; }
 
-  /// The operation on the nodes of a and b. Two constants have no builder, and a temporary one computes with them.
+  /// The operation on the nodes of a and b. Two constants have no builder; a temporary one evaluates them.
   template <class Operation>
   static Symbol combine(const Symbol& a, const Symbol& b, Operation operation) {
     Tape_builder temporary;
@@ -131,7 +131,7 @@ Tape taylor_tape(const Tape& tape) {
     jets[axis] = Jet::variable(int(axis), Symbol(builder, axis));
   for (const Instruction& i : tape.instructions) {
     execute<1>(i, &jets[i.a], &jets[i.b], &jets[i.result], 1);
-    // Coefficient 0 is computed by the instruction itself, so that it is the value of the expression bit for bit.
+    // The instruction itself computes coefficient 0, so that it equals the value of the expression bit for bit.
     const auto value = [&](std::uint32_t place) { return jets[place].value().node(builder); };
     jets[i.result].coefficients()[0] = Symbol(builder, builder.repeat(i, value(i.a), value(i.b)));
   }

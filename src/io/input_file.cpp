@@ -29,13 +29,13 @@ namespace internal {
 
 namespace {
 
-/// Keeps both ends of a named pipe open while somebody opens it for reading, which would wait for a program that
-/// writes, forever if that has written all and is gone.
+/// Keeps both ends of a named pipe open while it is opened for reading. Otherwise this could block forever if the
+/// writer has already finished.
 class Open_pipe {
 public:
   /// Throws if no program writes to the pipe within ten seconds.
   explicit Open_pipe(const std::string& path) : for_reading_(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
-    if (for_reading_ < 0) return; // open_input() says why
+    if (for_reading_ < 0) return; // open_input() reports the reason
     pollfd request = {for_reading_, POLLIN, 0};
     char byte;
     const bool has_writer = poll(&request, 1, 10'000) > 0 || read(for_reading_, &byte, 1) < 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of polygons, in the format that the extension says: they are read, and written whole or not at all.
+// Reads polygon files in the format of their extension, and writes them completely or not at all.
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/io/internal/input_file.h>
 #include <equiaffine/io/polygon_mesh_files.h>
@@ -28,15 +28,15 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// A file that takes the place of another one when it is complete, and is removed otherwise. It hands on the
-/// permissions of that one, and a link stays a link.
+/// A temporary file that replaces another one when it is complete, and is removed otherwise. Preserves the
+/// permissions of the replaced file, and links.
 class Whole_file {
 public:
   explicit Whole_file(const std::string& path) : path_(path), target_(std::filesystem::weakly_canonical(path, error_)) {
     if (error_) target_ = path;
     temporary_ = target_.parent_path() / (".equiaffine-" + std::to_string(std::random_device()()) + ".part");
     stream_.open(temporary_, std::ios::binary);
-    if (!stream_) fail("name a file in a folder that exists and may be written to");
+    if (!stream_) fail("its folder does not exist or is not writable; choose another folder");
   }
   Whole_file(const Whole_file&) = delete;
   Whole_file& operator=(const Whole_file&) = delete;
@@ -46,7 +46,7 @@ public:
 
   void commit() {
     stream_.close();
-    if (!stream_) fail("the disk is full or out of order");
+    if (!stream_) fail("the disk is full or broken; choose another folder");
     const auto replaced = std::filesystem::status(target_, error_);
     if (std::filesystem::is_regular_file(replaced))
       std::filesystem::permissions(temporary_, replaced.permissions(), error_);
@@ -65,7 +65,7 @@ private:
   std::ofstream stream_;
 };
 
-/// Calls `write(stream)` for a file that takes the place of the path when it is complete. \throw Input_error if it
+/// Calls `write(stream)` for a file that replaces the one at `path` when it is complete. \throw Input_error if it
 /// cannot be written
 template <class Write>
 void write_whole_file(const std::string& path, const Write& write) {
@@ -74,15 +74,15 @@ void write_whole_file(const std::string& path, const Write& write) {
   file.commit();
 }
 
-/// Throws if two columns have one name, or one has that of a coordinate, since a reader would take one for the other.
+/// Throws if two columns have the same name, or one has that of a coordinate, because readers could not distinguish
+/// them.
 void check_column_names(const std::string& path, const Vertex_attributes& attributes) {
   std::set<std::string> names = {"x", "y", "z", "X", "Y", "Z"};
   if (attributes.status) names.insert("status");
   for (const auto& column : attributes.columns)
     if (!names.insert(column.name).second)
-      throw Input_error(
-          "cannot write '" + path + "': there '" + column.name +
-          "' would be the name of two property maps, or of a map and a coordinate; give one another name");
+      throw Input_error("cannot write '" + path + "': '" + column.name +
+                        "' would be the name of two property maps, or of a map and a coordinate; rename one of them");
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of points as CSV, and what becomes of their columns when others are written beside them.
+// Reads tables of points as CSV, and merges their columns with new ones.
 #include "io/text_input.h"
 #include <equiaffine/base/Progress_observer.h>
 #include <equiaffine/io/internal/input_file.h>
@@ -20,7 +20,7 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// The text of a cell, without the quotes around it; two quotes within them stand for one.
+/// The text of a cell without the quotes around it. Within them, two quotes represent one.
 std::string unquote(std::string_view cell) {
   cell = trim(cell);
   if (cell.size() < 2 || cell.front() != '"' || cell.back() != '"') return std::string(cell);
@@ -32,8 +32,7 @@ std::string unquote(std::string_view cell) {
   return text;
 }
 
-/// The character that separates the cells of a file with this header: the one of comma, semicolon and tab that it has
-/// most often.
+/// The separator of a file with this header: the most frequent one of comma, semicolon, and tab.
 char separator_of(std::string_view header) {
   const auto count = [&](char c) { return std::count(header.begin(), header.end(), c); };
   char separator = ',';
@@ -42,7 +41,7 @@ char separator_of(std::string_view header) {
   return separator;
 }
 
-/// Takes the rows off the text of a CSV file. A quoted cell may hold separators and line ends.
+/// Splits the text of a CSV file into rows. A quoted cell may contain separators and line ends.
 class Csv_scanner {
 public:
   Csv_scanner(std::string_view text, const std::string& name) : rest_(text), name_(name) {
@@ -51,17 +50,17 @@ public:
     separator_ = separator_of(rest_.substr(first, rest_.find('\n', first) - first));
   }
 
-  /// The character between cells.
+  /// The separator between cells.
   char separator() const { return separator_; }
 
   [[noreturn]] void fail(const std::string& reason, const std::string& advice) const {
     fail_to_read(name_, reason, advice);
   }
 
-  /// The line in which the row taken last begins.
+  /// The line in which the last row returned begins.
   std::size_t line_number() const { return line_number_; }
 
-  /// Takes the next row that is not blank: its cells as they are written; none at the end of the file.
+  /// Returns the cells of the next row that is not blank, as written; none at the end of the file.
   std::vector<std::string_view> next_row() {
     Progress_observer::step();
     std::size_t end = 0;
@@ -76,7 +75,7 @@ public:
   }
 
 private:
-  /// The length of the next row, with its line end.
+  /// The length of the next row, including its line end.
   std::size_t end_of_row() {
     bool is_quoted = false;
     for (std::size_t i = 0; i < rest_.size(); ++i) {
@@ -89,7 +88,7 @@ private:
     return rest_.size();
   }
 
-  /// The cells between the separators of a row.
+  /// Splits a row into cells.
   std::vector<std::string_view> split(std::string_view text) const {
     if (text.ends_with('\n')) text.remove_suffix(1);
     if (text.ends_with('\r')) text.remove_suffix(1);
@@ -114,7 +113,7 @@ private:
   std::size_t next_line_number_ = 1;
 };
 
-/// The columns named x, y and z, or else X, Y and Z. Fails unless there is one of each.
+/// The indices of the columns x, y, and z, or else X, Y, and Z. Fails unless there is exactly one of each.
 std::array<std::size_t, 3> find_coordinates(const Csv_scanner& scanner, const std::vector<std::string>& header) {
   std::array<std::size_t, 3> places{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -123,9 +122,8 @@ std::array<std::size_t, 3> find_coordinates(const Csv_scanner& scanner, const st
     };
     const std::string lower(1, "xyz"[axis]), upper(1, "XYZ"[axis]), &name = columns(lower) == 0 ? upper : lower;
     if (columns(name) != 1)
-      scanner.fail("its header has no single column '" + lower + "'",
-                   "the first line names the columns, with x, y and z among them, separated by commas, semicolons or "
-                   "tabs");
+      scanner.fail("its header does not have exactly one column '" + lower + "'",
+                   "name the columns in the first line, including x, y and z, separated by commas, semicolons or tabs");
     places[axis] = std::size_t(
         std::find_if(header.begin(), header.end(), [&](const auto& cell) { return unquote(cell) == name; }) -
         header.begin());
@@ -133,7 +131,7 @@ std::array<std::size_t, 3> find_coordinates(const Csv_scanner& scanner, const st
   return places;
 }
 
-/// Fails unless the row taken last has as many cells as the header.
+/// Fails unless the last row has as many cells as the header.
 void check_length(const Csv_scanner& scanner, const std::vector<std::string_view>& row,
                   const std::vector<std::string>& header) {
   const std::string line = "line " + std::to_string(scanner.line_number());
@@ -145,7 +143,7 @@ void check_length(const Csv_scanner& scanner, const std::vector<std::string_view
                  std::string("write as many, or put quotes around '") + scanner.separator() + "'");
 }
 
-/// The point in the row taken last, whose coordinates are in the columns `places`.
+/// The point in the last row, whose coordinates are in the columns `places`.
 std::array<double, 3> parse_point(const Csv_scanner& scanner, const std::vector<std::string_view>& row,
                                   const std::array<std::size_t, 3>& places) {
   std::array<double, 3> p{};
@@ -161,7 +159,7 @@ std::array<double, 3> parse_point(const Csv_scanner& scanner, const std::vector<
   return p;
 }
 
-/// The columns of numbers other than the coordinates: those all of whose cells are numbers.
+/// The columns in which all cells are numbers, except the coordinates.
 std::vector<Vertex_attributes::Column> numeric_columns(const std::vector<std::string>& header,
                                                        const std::vector<std::string>& cells,
                                                        const std::array<std::size_t, 3>& coordinates) {

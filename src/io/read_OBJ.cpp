@@ -18,7 +18,7 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// The statements of OBJ that describe no points or faces.
+/// The OBJ statements that describe neither points nor faces.
 constexpr std::string_view statements_to_skip[] = {
     "bevel", "bmat",   "bsp",       "bzp",      "c_interp", "call",   "cdc", "cdp",  "con", "csh",        "cstype",
     "ctech", "curv",   "curv2",     "d_interp", "deg",      "end",    "g",   "hole", "l",   "lod",        "maplib",
@@ -72,8 +72,8 @@ private:
     return *x;
   }
 
-  /// The position of the vertex that a corner of a face names, as VERTEX, VERTEX/TEXTURE or VERTEX/TEXTURE/NORMAL.
-  /// Positive numbers count the vertices of the file from 1, negative ones those before the face from its end.
+  /// The index of the vertex of a corner VERTEX, VERTEX/TEXTURE, or VERTEX/TEXTURE/NORMAL of a face. Positive numbers
+  /// count the vertices of the file from 1, negative ones count backward from the last vertex before the face.
   std::size_t position(std::string_view corner) const {
     const auto number = parse_number<std::int64_t>(corner.substr(0, corner.find('/')));
     if (!number) fail("has a face with a vertex that is not an integer");
@@ -83,7 +83,8 @@ private:
     return *number > 0 ? std::size_t(*number) - 1 : number_of_points_ - std::size_t(-*number);
   }
 
-  /// Takes the next line without its comment. A vertex or a face that ends with a backslash goes on in the next line.
+  /// Takes the next line without its comment. A vertex or a face that ends with a backslash continues in the next
+  /// line.
   std::string_view next_line() {
     const auto next_part = [&] {
       const std::string_view line = take_line(rest_, line_number_);
@@ -97,7 +98,7 @@ private:
     return joined_.append(line);
   }
 
-  /// Fails because of the line that has been taken last.
+  /// Fails with the number of the last line.
   [[noreturn]] void fail(const std::string& reason) const {
     fail_to_read(name_, "line " + std::to_string(line_number_) + " " + reason, "correct the file or get it again");
   }
@@ -106,7 +107,7 @@ private:
   const std::string& name_;
   std::string joined_ = {};
   std::size_t line_number_ = 0, number_of_points_ = 0;
-  std::vector<std::size_t> corners_ = {}, ends_ = {}; ///< of all faces; a face may name vertices behind it
+  std::vector<std::size_t> corners_ = {}, ends_ = {}; ///< of all faces; a face may refer to later vertices
 };
 
 } // namespace

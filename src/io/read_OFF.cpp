@@ -17,8 +17,8 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// The place behind a keyword that ends with OFF at the beginning of a text; 0 if there is none. The first number may
-/// follow at once, as in many files of ModelNet.
+/// The position after a keyword that ends with OFF at the beginning of a text; 0 if there is none. The first number
+/// may follow without a blank, as in many files of ModelNet.
 std::size_t end_of_OFF_keyword(std::string_view text) {
   constexpr std::string_view keyword = "OFF";
   const std::string_view word = text.substr(0, text.find_first_of(" \t\r\n"));
@@ -28,31 +28,30 @@ std::size_t end_of_OFF_keyword(std::string_view text) {
   return word.find_first_not_of("0123456789", end) == std::string_view::npos ? end : 0;
 }
 
-/// Takes the lines off the text of an OFF file, without comments and blank lines.
+/// Splits the text of an OFF file into lines, without comments and blank lines.
 class Off_scanner {
 public:
   Off_scanner(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
 
-  /// Takes the keyword `OFF`, whose prefixes say what vertices have besides points, and the numbers of vertices and
+  /// Reads the keyword `OFF`, whose prefixes specify additional data of vertices, and the numbers of vertices and
   /// faces.
   std::array<std::size_t, 2> read_header() {
     if (trim(rest_).empty()) fail_to_read(name_, "it is empty", "give an OFF file");
     std::string_view text = next_line();
     if (const std::size_t end = end_of_OFF_keyword(text); end > 0) {
-      if (text.substr(0, end).find_first_of("4n") != std::string_view::npos)
-        fail("announces points that are not in 3D");
+      if (text.substr(0, end).find_first_of("4n") != std::string_view::npos) fail("declares points that are not in 3D");
       text.remove_prefix(end);
       if (trim(text).empty()) text = next_line();
     }
     const auto vertices = parse_number<std::size_t>(take_word(text)),
                faces = parse_number<std::size_t>(take_word(text));
-    if (!vertices || !faces) fail("has no numbers of vertices and faces as text");
+    if (!vertices || !faces) fail("does not contain the numbers of vertices and faces as text");
     if (*vertices > rest_.size() || *faces > rest_.size() || *vertices > std::numeric_limits<std::uint32_t>::max())
-      fail("announces more vertices and faces than the file holds");
+      fail("declares more vertices and faces than the file contains");
     return {*vertices, *faces};
   }
 
-  /// Takes the line of a vertex: its coordinates; normals and colors after them are left out.
+  /// Reads the coordinates of a vertex. Normals and colors after them are ignored.
   std::array<double, 3> read_vertex() {
     std::string_view text = next_line();
     std::array<double, 3> p{};
@@ -60,7 +59,7 @@ public:
     return p;
   }
 
-  /// Replaces `face` by the vertices in the line of a face, which are less than `vertices`.
+  /// Reads a face into `face`. Its vertices must be less than `vertices`.
   void read_face(std::size_t vertices, std::vector<std::uint32_t>& face) {
     std::string_view text = next_line();
     face.clear();
@@ -71,7 +70,7 @@ public:
   }
 
 private:
-  /// Takes the next number off a line.
+  /// Takes the next number from a line.
   template <class Number>
   Number number(std::string_view& line) const {
     const std::optional<Number> value = parse_number<Number>(take_word(line));
@@ -79,19 +78,19 @@ private:
     return *value;
   }
 
-  /// Fails because of the line that has been taken last.
+  /// Fails with the number of the last line.
   [[noreturn]] void fail(const std::string& reason) const {
     fail_to_read(name_, "line " + std::to_string(line_number_) + " " + reason, "correct the file or get it again");
   }
 
-  /// Takes the next line that is not empty.
+  /// Takes the next nonempty line.
   std::string_view next_line() {
     while (!rest_.empty()) {
       std::string_view line = take_line(rest_, line_number_);
       line = trim(line.substr(0, line.find('#')));
       if (!line.empty()) return line;
     }
-    fail("is the last one, but more has to follow");
+    fail("is the last one, but more lines are needed");
   }
 
   std::string_view rest_;

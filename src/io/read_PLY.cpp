@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A PLY file is a header, which says how numbers are written, and lists elements with their properties, and the
+// A PLY file consists of a header, which specifies the encoding and lists elements with their properties, and of the
 // numbers. Elements become points with columns, and faces.
 #include "io/text_input.h"
 #include <equiaffine/base/Progress_observer.h>
@@ -45,13 +45,13 @@ struct Ply_element {
 struct Ply_header {
   Ply_encoding encoding;
   std::vector<Ply_element> elements;
-  std::vector<std::string> comments; ///< all but the one that names this program
+  std::vector<std::string> comments; ///< except the one that names this program
 };
 
-/// Takes the header off the text of a PLY file, line by line.
+/// Parses the header of a PLY file line by line.
 class Ply_header_parser {
 public:
-  /// The parser moves the beginning of `text`; `name` stands for the file in messages.
+  /// Parsing removes the header from `text`; `name` is the name of the file in messages.
   Ply_header_parser(std::string_view& text, const std::string& name) : text_(text), name_(name) {}
 
   Ply_header parse() {
@@ -81,7 +81,7 @@ public:
         properties.push_back(std::move(property));
       } else if (keyword == "comment") {
         if (!trim(line).starts_with("made by equiaffine")) comments.emplace_back(trim(line));
-      } else if (!keyword.empty() && keyword != "obj_info") fail("the word '" + std::string(keyword) + "'");
+      } else if (!keyword.empty() && keyword != "obj_info") fail("unknown word '" + std::string(keyword) + "'");
     }
     if (!encoding) fail("no format");
     return {*encoding, std::move(elements), std::move(comments)};
@@ -98,18 +98,18 @@ private:
     if (word == "ascii") return Ply_encoding::ASCII;
     if (word == "binary_little_endian") return Ply_encoding::BINARY_LITTLE_ENDIAN;
     if (word == "binary_big_endian") return Ply_encoding::BINARY_BIG_ENDIAN;
-    fail("the format '" + std::string(word) + "'");
+    fail("unknown format '" + std::string(word) + "'");
   }
 
-  /// Parses what follows the word `element`: a name and a number.
+  /// Parses the rest of the line after `element`: a name and a number.
   Ply_element parse_element(std::string_view line) const {
     const std::string element_name(take_word(line));
     const auto count = parse_number<std::size_t>(line);
-    if (!count) fail("the number of '" + element_name + "' is not understood");
+    if (!count) fail("unreadable number of '" + element_name + "' elements");
     return {element_name, *count, {}};
   }
 
-  /// Parses what follows the word `property`: a type or `list` with two types, and a name.
+  /// Parses the rest of the line after `property`: a type, or `list` with two types, and a name.
   Ply_property parse_property(std::string_view line) const {
     std::string_view type = take_word(line);
     std::optional<Ply_type> count_type;
@@ -132,7 +132,7 @@ private:
                                                                        {"double", "float64"}}};
     for (std::size_t i = 0; i < words.size(); ++i)
       if (word == words[i][0] || word == words[i][1]) return static_cast<Ply_type>(i);
-    fail("the type '" + std::string(word) + "'");
+    fail("unknown type '" + std::string(word) + "'");
   }
 
   std::string_view& text_;
@@ -140,8 +140,8 @@ private:
   std::size_t line_number_ = 0;
 };
 
-/// The numbers after the header of a PLY file, read from the first to the last. Each comes out as a double, which holds
-/// the numbers of all types of PLY exactly.
+/// Reads the numbers after the header of a PLY file in order. Each is returned as a double, which represents all
+/// types of PLY exactly.
 class Ply_numbers {
 public:
   Ply_numbers(std::string_view text, Ply_encoding encoding, const std::string& name)
@@ -151,7 +151,7 @@ public:
     fail_to_read(name_, reason, advice);
   }
 
-  /// Fails before memory is taken if the rest of the file cannot hold as many elements as the header announces.
+  /// Fails before any allocation if the rest of the file cannot hold the declared number of elements.
   void check_length(const Ply_element& element) const {
     if (!element.properties.empty() && element.count > rest_.size()) fail_at_end();
   }
@@ -170,7 +170,7 @@ public:
     }
   }
 
-  /// Replaces `list` by the numbers of a list property.
+  /// Reads the numbers of a list property into `list`.
   void next_list(const Ply_property& property, std::vector<double>& list) {
     const double count = next(*property.count_type);
     if (!(count >= 0 && count <= double(rest_.size()))) fail_at_end();
@@ -178,7 +178,7 @@ public:
     for (double i = 0; i < count; ++i) list.push_back(next(property.type));
   }
 
-  /// Passes over all elements of a kind that nobody asks for.
+  /// Skips all elements of a kind that is not used.
   void skip(const Ply_element& element) {
     std::vector<double> list;
     for (std::size_t i = 0; i < element.count; ++i)
@@ -189,7 +189,7 @@ public:
 
 private:
   [[noreturn]] void fail_at_end() const {
-    fail("it ends before all the numbers that its header announces", "get the complete file again");
+    fail("it ends before all the numbers that its header declares", "get the complete file again");
   }
 
   double next_word() {
@@ -216,14 +216,14 @@ private:
   const std::string& name_;
 };
 
-/// The use of each property of a vertex.
+/// How each property of a vertex is used.
 struct Ply_vertex_layout {
-  std::array<std::optional<std::size_t>, 3> coordinates; ///< which properties are x, y and z
-  std::vector<std::optional<std::size_t>> columns; ///< the column of each property; coordinates and lists have none
+  std::array<std::optional<std::size_t>, 3> coordinates; ///< the properties that are x, y, and z
+  std::vector<std::optional<std::size_t>> columns; ///< the column of each property; none for coordinates and lists
   bool has_status = false;                         ///< whether a property is `uchar status`
 };
 
-/// Finds the coordinates and appends an empty column to `attributes` for each other property that is a number.
+/// Finds the coordinates, and appends an empty column to `attributes` for each other property that is a number.
 Ply_vertex_layout lay_out_vertices(const Ply_element& element, Vertex_attributes& attributes) {
   Ply_vertex_layout layout;
   layout.columns.resize(element.properties.size());
@@ -242,7 +242,7 @@ Ply_vertex_layout lay_out_vertices(const Ply_element& element, Vertex_attributes
   return layout;
 }
 
-/// Turns a column `status` into the status of the points, unless some of its numbers are no status.
+/// Converts a column `status` to the status of the points, unless some of its numbers are not valid.
 void extract_status(Vertex_attributes& attributes) {
   const auto column = std::find_if(attributes.columns.begin(), attributes.columns.end(),
                                    [](const auto& c) { return c.name == "status"; });
@@ -280,7 +280,7 @@ void read_vertices(Ply_numbers& numbers, const Ply_element& element, const Mesh_
   if (layout.has_status) extract_status(attributes);
 }
 
-/// Reads faces between so many points.
+/// Reads the faces; `points` is the number of points.
 void read_faces(Ply_numbers& numbers, const Ply_element& element, std::size_t points, const Mesh_receiver& receiver) {
   std::vector<double> list;
   std::vector<std::uint32_t> face;
@@ -304,13 +304,13 @@ void read_faces(Ply_numbers& numbers, const Ply_element& element, std::size_t po
   }
 }
 
-/// Reads the elements in the order of the header. Those that are neither vertices nor faces are left out.
+/// Reads the elements in the order of the header. Ignores those that are neither vertices nor faces.
 Vertex_attributes read_elements(Ply_numbers& numbers, const std::vector<Ply_element>& elements,
                                 const Mesh_receiver& receiver) {
   Vertex_attributes attributes;
   std::optional<std::size_t> points;
   for (const Ply_element& element : elements) {
-    if (element.properties.empty() && element.name != "vertex") continue; // of which there may be any number
+    if (element.properties.empty() && element.name != "vertex") continue; // takes no bytes: any count is valid
     numbers.check_length(element);
     if (element.name == "vertex") {
       read_vertices(numbers, element, receiver, attributes);

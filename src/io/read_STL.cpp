@@ -48,12 +48,12 @@ std::vector<Corner> corners_of_binary_STL(std::string_view text, std::size_t tri
   return corners;
 }
 
-/// Takes words off the text of an STL file. Lines end with a line feed, a carriage return, or both.
+/// Splits the text of an STL file into words. Lines end with a line feed, a carriage return, or both.
 class Stl_scanner {
 public:
   Stl_scanner(std::string_view text, const std::string& name) : rest_(text), name_(name) {}
 
-  /// The next word in lower case; an empty one at the end.
+  /// The next word in lower case; empty at the end.
   std::string next_word() {
     Progress_observer::step();
     while (!rest_.empty() && blanks.find(rest_[0]) != std::string_view::npos) {
@@ -80,7 +80,7 @@ public:
 
   void skip_line() { rest_.remove_prefix(std::min(rest_.size(), rest_.find_first_of("\r\n"))); }
 
-  /// Fails because of the line of the last word.
+  /// Fails with the line number of the last word.
   [[noreturn]] void fail(const std::string& reason) const {
     fail_to_read(name_, "line " + std::to_string(line_) + " " + reason, "correct the file or get it again");
   }
@@ -90,11 +90,11 @@ private:
 
   std::string_view rest_;
   const std::string& name_;
-  std::size_t line_ = 1, next_line_ = 1; ///< of the last word, and of what follows
+  std::size_t line_ = 1, next_line_ = 1; ///< of the last word, and of the rest
 };
 
-/// Reads the words `vertex`, each before three numbers, and `endfacet` behind three of them. Names behind `solid` and
-/// `endsolid` extend to the end of their line, and other words are left out.
+/// Reads each word `vertex` with the three numbers after it, and `endfacet` after every three of them. Names after
+/// `solid` and `endsolid` extend to the end of their line. Ignores other words.
 std::vector<Corner> corners_of_text_STL(std::string_view text, const std::string& name) {
   std::vector<Corner> corners;
   std::size_t corners_of_facets = 0;
@@ -116,8 +116,8 @@ std::vector<Corner> corners_of_text_STL(std::string_view text, const std::string
   return corners;
 }
 
-/// The first of the corners with the same coordinates, for each corner. Zeros of both signs are the same, and so are
-/// NaN with the same bits. Sorting takes the same time whatever the coordinates are.
+/// For each corner, the first corner with the same coordinates. Zeros of both signs are equal, and so are NaNs with
+/// the same bits. Sorting takes the same time for all coordinates.
 std::vector<std::size_t> first_of_same(const std::vector<Corner>& corners) {
   const auto bits = [&](std::size_t c) {
     const auto& [x, y, z] = corners[c];
@@ -139,7 +139,7 @@ std::vector<Corner> corners_of_STL(std::string_view text, const std::string& nam
   const bool has_header = text.size() >= bytes_of_header;
   const std::uint32_t triangles = has_header ? little_endian(text.data() + 80) : 0;
   const std::uint64_t binary_size = bytes_of_header + std::uint64_t(triangles) * bytes_of_triangle;
-  // Many binary files begin with the word solid, too. Their numbers of triangles, or what pads their names, have zeros.
+  // Many binary files also begin with the word solid, but contain zero bytes in the triangle count or in padding.
   const std::string_view header = text.substr(0, bytes_of_header);
   if (binary_size != text.size() && header.find('\0') == std::string_view::npos) {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3); // a byte order mark
@@ -147,7 +147,7 @@ std::vector<Corner> corners_of_STL(std::string_view text, const std::string& nam
   }
   if (!has_header) fail_to_read(name, "it is not an STL file", "get the complete file again");
   if (binary_size > text.size())
-    fail_to_read(name, "it announces " + std::to_string(triangles) + " triangles and ends before the last one",
+    fail_to_read(name, "it declares " + std::to_string(triangles) + " triangles but ends before the last one",
                  "get the complete file again");
   return corners_of_binary_STL(text, triangles);
 }

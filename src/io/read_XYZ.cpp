@@ -19,7 +19,7 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// The numbers in a line. Fails if there is a word that is none.
+/// The numbers in a line. Fails if a word is not a number.
 std::vector<double> numbers_of_line(std::string_view line, const std::string& where, const std::string& name) {
   std::vector<double> numbers;
   for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) {
@@ -30,7 +30,7 @@ std::vector<double> numbers_of_line(std::string_view line, const std::string& wh
   return numbers;
 }
 
-/// The text of a line that is a comment, behind // or #; nothing for another one.
+/// The text of a comment line, after // or #; nothing for any other line.
 std::optional<std::string_view> xyz_comment(std::string_view line) {
   line = trim(line);
   if (line.starts_with('#')) return line.substr(1);
@@ -38,8 +38,8 @@ std::optional<std::string_view> xyz_comment(std::string_view line) {
   return std::nullopt;
 }
 
-/// The names of the columns behind x, y, z, if a comment is a list of names as CloudCompare writes it, X Y Z R G B.
-/// Normals are called nx, ny, nz, and colors red, green, blue, as in PLY.
+/// The names of the columns after x, y, z if a comment is a list of names as written by CloudCompare, such as X Y Z R
+/// G B. Normals are named nx, ny, nz, and colors red, green, blue, as in PLY.
 std::optional<std::vector<std::string>> xyz_column_names(std::string_view comment) {
   constexpr std::string_view usual[][2] = {{"x", "x"},   {"y", "y"},   {"z", "z"},     {"nx", "nx"}, {"ny", "ny"},
                                            {"nz", "nz"}, {"r", "red"}, {"g", "green"}, {"b", "blue"}};
@@ -57,9 +57,9 @@ std::optional<std::vector<std::string>> xyz_column_names(std::string_view commen
   return names;
 }
 
-/// Tells what three columns without names are, and names them. They are normals if these have the length 1, as written
-/// with two decimals or more; some may be missing, which is written as zeros. Otherwise they are colors. Fails if they
-/// are neither.
+/// Decides whether three columns without names are normals or colors, and names them. They are normals if their
+/// lengths are 1, up to rounding to two decimals, or 0 for missing ones. Fails if they are neither normals nor
+/// colors.
 void name_xyz_columns(Vertex_attributes& attributes, const std::string& name) {
   constexpr double rounding = 0.01, brightest = 65535;
   auto& columns = attributes.columns;
@@ -74,7 +74,7 @@ void name_xyz_columns(Vertex_attributes& attributes, const std::string& name) {
   const bool are_normals = has_normal && !has_another;
   if (!are_normals && !are_colors)
     fail_to_read(name,
-                 "its columns 4 to 6 are neither normals, which have the length 1, nor colors, which are not negative",
+                 "its columns 4 to 6 are neither normals, which have length 1, nor colors, which are not negative",
                  "name them in a first line, such as //X Y Z Nx Ny Nz");
   constexpr const char* normals[] = {"nx", "ny", "nz"};
   constexpr const char* colors[] = {"red", "green", "blue"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Takes lines, words and numbers from the text of a file, for the readers of points and meshes.
+// Extracts lines, words, and numbers from text, for the readers of points and meshes.
 #ifndef EQUIAFFINE_SRC_IO_TEXT_INPUT_H
 #define EQUIAFFINE_SRC_IO_TEXT_INPUT_H
 
@@ -14,15 +14,15 @@
 
 namespace equiaffine::internal {
 
-/// The text without blanks and line ends at either end.
+/// The text without blanks and line ends at both ends.
 inline std::string_view trim(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin);
 }
 
-/// The whole text as a number; none if it is something else. Blanks around it and a leading '+' are allowed. The
-/// locale has no influence.
+/// The whole text as a number; nothing if it is not one. Allows surrounding blanks and a leading '+'. Independent of
+/// the locale.
 template <class Number>
 std::optional<Number> parse_number(std::string_view text) {
   text = trim(text);
@@ -33,7 +33,7 @@ std::optional<Number> parse_number(std::string_view text) {
   return number;
 }
 
-/// Takes the first line off `text` and returns it without its end; counts it in `line_number`.
+/// Removes the first line from `text`, returns it without its end, and increments `line_number`.
 inline std::string_view take_line(std::string_view& text, std::size_t& line_number) {
   Progress_observer::step();
   const std::size_t end = text.find('\n');
@@ -44,7 +44,7 @@ inline std::string_view take_line(std::string_view& text, std::size_t& line_numb
   return line;
 }
 
-/// Takes the first word off `text` and returns it; an empty one if there is none.
+/// Removes the first word from `text` and returns it; empty if there is none.
 inline std::string_view take_word(std::string_view& text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == std::string_view::npos) {

@@ -28,7 +28,7 @@ Buffered_output& Buffered_output::operator<<(double number) {
   const auto end =
       std::to_chars(digits.data(), digits.data() + digits.size(), number + 0., std::chars_format::general, 17);
   return *this << std::string_view(digits.data(), std::size_t(end.ptr - digits.data()));
-#else // as libc++ before version 14
+#else // for libc++ before version 14
   std::ostringstream digits;
   digits.imbue(std::locale::classic());
   digits << std::setprecision(17) << number + 0.;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Affine maps with their kinds, and the maps between meshes that a search returns.
+// Affine maps and their kinds, and the maps between meshes that a search returns.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_AFFINE_MAP_3_H
 #define EQUIAFFINE_SRC_REGISTRATION_AFFINE_MAP_3_H
 
@@ -19,7 +19,6 @@
 
 namespace equiaffine::internal {
 
-/// The map p -> matrix p + translation.
 struct Affine_map_3 {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
@@ -43,7 +42,7 @@ struct Affine_map_3 {
   }
 };
 
-/// The number of parameters of a map of that kind.
+/// The number of parameters of a map of a kind.
 inline int degrees_of_freedom(Map_kind kind) {
   switch (kind) {
   case Map_kind::RIGID: return 6;
@@ -53,8 +52,8 @@ inline int degrees_of_freedom(Map_kind kind) {
   }
 }
 
-/// The matrix of that kind nearest to `matrix`, with the same sign of the determinant: its orthogonal part is that of
-/// the singular value decomposition.
+/// The nearest matrix of a kind, with the same sign of the determinant. Its orthogonal part is that of the singular
+/// value decomposition.
 inline Eigen::Matrix3d nearest_of_kind(const Eigen::Matrix3d& matrix, Map_kind kind) {
   const double scale = std::cbrt(std::abs(matrix.determinant()));
   if (kind == Map_kind::AFFINE) return matrix;
@@ -70,8 +69,7 @@ inline double condition(const Eigen::Matrix3d& matrix) {
   return values[0] / values[2];
 }
 
-/// Coordinates in which points have mean 0 and covariance 1: the choice of points alone fixes them up to an orthogonal
-/// map.
+/// Coordinates in which points have mean 0 and covariance 1. The points determine them up to an orthogonal map.
 struct Whitening {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d matrix, inverse; ///< x -> matrix (x - mean)
@@ -90,22 +88,22 @@ struct Whitening {
   Affine_map_3 from() const { return {inverse, mean}; }          ///< the map back
 };
 
-/// A map of one mesh onto another one, or of parts of them, with its evidence.
+/// A map of one mesh, or a part of it, onto another one, with its evidence.
 struct Shape_match {
   Affine_map_3 map;
-  double rms; ///< of the distances of points that lie on the other surface, in the unit of the target
-  std::array<double, 2> inliers; ///< the parts of the area of the source, and of the target, that lie on the other one
-  double log10_false_alarms;     ///< of the number of maps as good as this one that chance would make
-  std::array<double, 2> contradictions; ///< the parts of points off the other surface although that does not end there
+  double rms; ///< of the distances of points on the other surface, in the unit of the target
+  std::array<double, 2> inliers; ///< fractions of the area of the source, and of the target, on the other surface
+  double log10_false_alarms;     ///< base 10 logarithm of the expected number of equally good maps by chance
+  std::array<double, 2> contradictions; ///< fractions of points off the other surface although that does not end there
 };
 
 /// The maps between meshes that a search found.
 struct Shape_matches {
-  std::vector<Shape_match> maps = {}; ///< the best first
-  std::size_t hypotheses = 0;         ///< the number of maps that were tried
+  std::vector<Shape_match> maps = {}; ///< best first
+  std::size_t hypotheses = 0;         ///< number of maps that were tried
   double size = 0;                    ///< of the target
-  Affine_slippage_3 slippage = {};    ///< of the source; if it slips, each map is one of a continuous family
-  std::string reason = {};            ///< why none of the hypotheses is accepted
+  Affine_slippage_3 slippage = {};    ///< of the source; if it slides, each map is one of a continuous family
+  std::string reason = {};            ///< why all hypotheses were rejected
 };
 
 } // namespace equiaffine::internal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Maps between whole surfaces with a common centroid: how they are judged and refined, and rotations among them.
+// Maps between whole surfaces with a common centroid: judging and refining them, and rotations among them.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_CENTERED_MAP_H
 #define EQUIAFFINE_SRC_REGISTRATION_CENTERED_MAP_H
 
@@ -24,33 +24,34 @@
 
 namespace equiaffine::internal {
 
-/// A map between the coordinates of two Centered_surface_3, or of one, with the rms distance, both ways, between moved
-/// points and the surface.
+/// A map between the coordinates of two Centered_surface_3, or of one, with the rms distance in both directions
+/// between moved points and the surface.
 struct Centered_map {
   Affine_map_3 map = {};
   double rms = std::numeric_limits<double>::infinity();
-  double greatest = 0; ///< the largest of the distances, where a map was verified
+  double greatest = 0; ///< largest of the distances, if the map was verified
 };
 
 inline double difference(const Centered_map& a, const Centered_map& b) {
   return difference(a.map.matrix, b.map.matrix);
 }
 
-/// Two surfaces that a map moves onto each other; a surface and itself where symmetries are sought.
+/// Two surfaces that a map moves onto each other, or one surface and itself in a search for symmetries.
 struct Centered_pair {
   const Centered_surface_3 &source, &target;
 
   explicit Centered_pair(const Centered_surface_3& surface) : source(surface), target(surface) {}
   Centered_pair(const Centered_surface_3& from, const Centered_surface_3& to) : source(from), target(to) {}
 
-  /// Whether both have exact centroids, which those of other surfaces than meshes are not.
+  /// Whether both have exact centroids, as only meshes do.
   bool are_meshes() const { return !source.is_exact && !target.is_exact; }
-  /// Whether every map keeps the centroid: along an open tube, say, only the ends tell of a translation.
+  /// Whether every map preserves the centroid. Along an open tube, for example, a translation is detected only at
+  /// the ends.
   bool is_mesh_itself() const { return are_meshes() && &source == &target; }
 };
 
-/// The distances of the first `count` points of both surfaces: of moved ones, and of the others beside the moved
-/// surface.
+/// The distances of the first `count` points of both surfaces: of moved points from the target, and of points of the
+/// target from the moved source.
 struct Distances_both_ways {
   std::vector<Mapped_point> moved, fixed;
 
@@ -82,12 +83,12 @@ inline Centered_map judged(const Centered_pair& surfaces, const Affine_map_3& ma
   return {map, Distances_both_ways(surfaces, map, points).rms()};
 }
 
-/// The distances of points that a map moves from the surface, in some proportions, the mean over its area there.
+/// The distances of moved points from the surface in given proportions; the mean is over the area there.
 struct Distances_of_moved {
   double mean_square, greatest;
 };
 
-/// Moves the first samples, and the points that are to be checked, at most `count` of each.
+/// Moves the first samples, and the points to check, at most `count` of each.
 inline Distances_of_moved distances_of_moved(const Centered_surface_3& surface, const Affine_map_3& map,
                                              std::size_t count, const Centered_surface_3::Proportions& in) {
   const auto& samples = surface.samples.points;
@@ -110,14 +111,14 @@ inline Distances_of_moved distances_of_moved(const Centered_surface_3& surface, 
   return result;
 }
 
-/// The same in the proportions in which maps are sought.
+/// The same in the proportions of the search.
 inline Distances_of_moved distances_of_moved(const Centered_surface_3& surface, const Affine_map_3& map,
                                              std::size_t count) {
   return distances_of_moved(surface, map, count, {{}, surface.distances});
 }
 
-/// The rms distance, both ways, between moved points and the surface, in the proportions of the target, the mean over
-/// its area there. It is the one that is `sought` where these are the proportions in which maps are sought.
+/// The rms distance in both directions between moved points and the surface, in the proportions of the target; the
+/// mean is over the area there. Returns `sought` if these are the proportions of the search.
 inline double own_rms(const Centered_pair& surfaces, const Affine_map_3& map, std::size_t count, double sought) {
   const auto& [source, target] = surfaces;
   if (source.own.distances == source.distances && target.own.distances == target.distances) return sought;
@@ -139,16 +140,17 @@ inline double own_rms(const Centered_pair& surfaces, const Affine_map_3& map, st
   return std::sqrt((sums[0] / weights[0] + sums[1] / weights[1]) / 2);
 }
 
-/// How a map about the centroid is refined.
+/// How to refine a map about the centroid.
 struct Centered_refinement {
   Map_kind kind = Map_kind::RIGID;
   int most_steps = 15;
   std::size_t points = 400;
-  Eigen::Vector3d fixed_axis = Eigen::Vector3d::Zero(); ///< the map does not turn any further about it, unless it is 0
-  bool keeps_center = false;                            ///< the map does not move the origin
+  Eigen::Vector3d fixed_axis = Eigen::Vector3d::Zero(); ///< unless it is 0, the map does not turn further about this
+                                                        ///< axis
+  bool keeps_center = false;                            ///< whether the map fixes the origin
 };
 
-/// The infinitesimal maps of a kind, without the rotation about an axis.
+/// The infinitesimal maps of a kind, without the rotation about the fixed axis.
 inline Eigen::MatrixXd infinitesimal_maps(const Centered_refinement& how) {
   Eigen::MatrixXd maps = infinitesimal_maps(how.kind);
   if (how.keeps_center) maps.bottomRows<3>().setZero();
@@ -159,8 +161,8 @@ inline Eigen::MatrixXd infinitesimal_maps(const Centered_refinement& how) {
   return maps - rotation * (rotation.transpose() * maps);
 }
 
-/// The change of a map by one step of Gauss and Newton. Points further from the other surface than 4 deviations do not
-/// count, and directions along which the surface slips stay as they are.
+/// The change of a map in one Gauss-Newton step. Points farther than 4 deviations from the other surface are
+/// ignored, and directions along which the surface slides do not change.
 inline Affine_map_3 step_of_refinement(const Distances_both_ways& distances, const Eigen::MatrixXd& maps) {
   constexpr double slipping = 1e-8, longest_step = 0.4;
   const double infinity = std::numeric_limits<double>::infinity();
@@ -174,7 +176,7 @@ inline Affine_map_3 step_of_refinement(const Distances_both_ways& distances, con
   return equations.map_of(x);
 }
 
-/// Refines a map by least squares. Maps of a kind that keeps volumes keep the determinant that they have.
+/// Refines a map by least squares. Maps of a kind that preserves volumes keep their determinant.
 inline Affine_map_3 refined(const Centered_pair& surfaces, Affine_map_3 map, const Centered_refinement& how) {
   const Eigen::MatrixXd maps = infinitesimal_maps(how);
   const double scale = keeps_volume(how.kind) ? std::cbrt(std::abs(map.matrix.determinant())) : 1;
@@ -191,8 +193,8 @@ inline Affine_map_3 refined(const Centered_pair& surfaces, Affine_map_3 map, con
   return map;
 }
 
-/// Returns rotations about the centroid near all that may move one surface to within an rms distance of another one, or
-/// of itself.
+/// Returns rotations about the centroid close to all rotations that may move one surface to within an rms distance
+/// of the other, or of itself.
 inline Rotation_candidates candidate_rotations(bool in_threads, const Centered_surface_3& source,
                                                const Centered_surface_3& target, double tolerance,
                                                bool allows_reflections) {
@@ -209,12 +211,12 @@ inline Rotation_candidates candidate_rotations(bool in_threads, const Centered_s
   return candidates;
 }
 
-/// Maps that differ by less than this are the same one.
+/// Maps with a smaller difference are the same.
 constexpr double same_map = 0.03;
 
 constexpr std::size_t points_of_rms = 1500;
 
-/// Returns the maps below an rms, by their rms, without those that are the same as better ones.
+/// Returns the maps below an rms, sorted by rms, without those that are the same as better ones.
 inline std::vector<Centered_map> different(std::vector<Centered_map> maps, double greatest_rms) {
   std::stable_sort(maps.begin(), maps.end(),
                    [](const Centered_map& a, const Centered_map& b) { return a.rms < b.rms; });
@@ -223,8 +225,8 @@ inline std::vector<Centered_map> different(std::vector<Centered_map> maps, doubl
                       [](const Centered_map& a, const Centered_map& b) { return difference(a, b) < same_map; });
 }
 
-/// A map refined by least squares, judged by many points. A map between meshes keeps the centroid if it is as good
-/// then.
+/// Refines a map by least squares, and judges it with many points. A map between meshes preserves the centroid if it
+/// is as good then.
 inline Centered_map refined_and_judged(const Centered_pair& surfaces, const Affine_map_3& map, Map_kind kind) {
   const auto refined_map = [&](const Affine_map_3& m, bool keeps_center) {
     const Centered_refinement how = {.kind = kind, .most_steps = 10, .points = 300, .keeps_center = keeps_center};
@@ -237,10 +239,10 @@ inline Centered_map refined_and_judged(const Centered_pair& surfaces, const Affi
   return fixed.rms <= first.rms + rounding ? fixed : first;
 }
 
-/// Maps that were refined.
+/// Refined maps.
 struct Refined_maps {
-  std::vector<Centered_map> maps; ///< the different ones, by their rms
-  /// The least rms of a map that was given up since there were too many: about the rms that it would have.
+  std::vector<Centered_map> maps; ///< distinct maps, sorted by rms
+  /// The smallest rms of a map that was dropped because there were too many; close to its rms after refinement.
   double least_left_out = std::numeric_limits<double>::infinity();
 
   void keep(std::size_t most) {
@@ -250,8 +252,8 @@ struct Refined_maps {
   }
 };
 
-/// Returns what rotations, times a `scale`, become by refinement, below an rms. A few steps with a few points decide
-/// which of them are worth more, the best few hundreds of them unless all are asked for.
+/// Refines rotations times a `scale`, and returns the resulting maps below an rms. A few steps with a few points
+/// determine which ones to refine further: the best few hundred, unless all are requested.
 inline Refined_maps refined_candidates(bool in_threads, const Centered_pair& surfaces,
                                        const std::vector<Rotation_candidate>& rotations, double scale, Map_kind kind,
                                        double greatest_rms, bool are_all_asked_for = false) {
@@ -276,22 +278,22 @@ inline Refined_maps refined_candidates(bool in_threads, const Centered_pair& sur
   return result;
 }
 
-/// An axis about which a surface turns with little change, judged by rotations of finite angles: small ones would find
-/// that a fine gear turns, too.
+/// An axis about which a surface turns with little change. It is judged by rotations of finite angles, because by
+/// small ones even a fine gear turns.
 struct Slipping_rotation {
   Infinitesimal_map_3 generator; ///< in the coordinates of the Centered_surface_3
-  double rms;                    ///< the largest of the rotations
+  double rms;                    ///< largest of the rotations
   double own_rms;                ///< the same in the proportions of the surface
 };
 
-/// The axis of the rotation that a map nearly is, by the part of it that is antisymmetric.
+/// The axis of an approximate rotation, from its antisymmetric part.
 inline Eigen::Vector3d axis_of(const Eigen::Matrix3d& m) {
   return Eigen::Vector3d(m(2, 1) - m(1, 2), m(0, 2) - m(2, 0), m(1, 0) - m(0, 1)).normalized();
 }
 
-/// Returns three axes about which rotations move points away from the surface least, or in proportion, by their rms.
-/// The rotations of a mesh keep its centroid, which is exact, and are about an axis that was refined once: refinement
-/// of each would fit them to the facets.
+/// Returns the three axes about which rotations move points least off the surface, sorted by rms. Rotations of a
+/// mesh preserve its exact centroid, and their axis is refined only once: refining each rotation would fit it to the
+/// facets.
 inline std::vector<Slipping_rotation> slipping_rotations(bool in_threads, const Centered_surface_3& surface,
                                                          Map_kind kind) {
   constexpr std::array<double, 4> angles = {1.0, 0.381966, 1.618034, 2.618034};
@@ -306,7 +308,7 @@ inline std::vector<Slipping_rotation> slipping_rotations(bool in_threads, const 
   const Centered_pair itself(surface);
   const bool is_mesh = itself.is_mesh_itself();
   Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares).eigenvectors();
-  // A rotation about an axis, changed by refinement, or as it is where it was drawn to a symmetry nearby.
+  // A rotation about an axis after refinement, or unchanged if refinement pulls it to a nearby symmetry.
   const auto refined_rotation = [&](double angle, const Eigen::Vector3d& axis) -> Affine_map_3 {
     const Affine_map_3 rotation = {Eigen::AngleAxisd(angle, axis).toRotationMatrix()};
     const Affine_map_3 map = refined(itself, rotation, {kind, 8, 400, axis, is_mesh});
@@ -336,7 +338,7 @@ inline std::vector<Slipping_rotation> slipping_rotations(bool in_threads, const 
     const Affine_map_3 turn = maps[axis * angles.size()].map, back = turn.inverse();
     const double sine = std::sin(angles[0]);
     slipping.generator.matrix = (turn.matrix - back.matrix) / (2 * sine);
-    // The points that the rotation fixes are those that its generator does not move.
+    // The rotation and its generator have the same fixed points.
     slipping.generator.translation = (turn.translation - back.translation) / (2 * sine);
     result.push_back(slipping);
   }
@@ -344,13 +346,13 @@ inline std::vector<Slipping_rotation> slipping_rotations(bool in_threads, const 
   return result;
 }
 
-/// Whether rotations of a mesh move no point further off it than facets are off the surface that they stand for, or
-/// than `rounding`. A part that is not one of revolution moves further, and the rms may not tell.
+/// Whether rotations of a mesh move no point farther off it than facets are off the smooth surface, or than
+/// `rounding`. A part that is not one of revolution moves farther, which the rms may not show.
 inline bool keeps_to_facets(bool in_threads, const Centered_surface_3& surface, const Slipping_rotation& rotation,
                             double rounding) {
   constexpr std::array<double, 3> angles = {0.381966, 1.618034, 2.618034};
   constexpr std::size_t points = 20000;
-  constexpr double factor = 3; // that of regular triangles on a sphere is 8 / 3
+  constexpr double factor = 3; // 8 / 3 for regular triangles on a sphere
   const Eigen::Vector3d axis = axis_of(rotation.generator.matrix);
   std::array<double, angles.size()> greatest;
   parallel_for(in_threads, 0, angles.size(), [&](std::size_t i) {
@@ -360,8 +362,8 @@ inline bool keeps_to_facets(bool in_threads, const Centered_surface_3& surface, 
   return *std::max_element(greatest.begin(), greatest.end()) < rounding + factor * surface.samples.greatest_facet_error;
 }
 
-/// The generators, in the coordinates of the surface, of the rotations whose rms is below a limit. Rotations about two
-/// axes generate those about a third one, so that two that are small alone are less than what they would have to be.
+/// The generators, in the coordinates of the surface, of the rotations whose rms is below a limit. Rotations about
+/// two axes generate those about a third one, so if two are below the limit, only one is valid.
 inline Affine_slippage_3 continuous_symmetries(const Centered_surface_3& surface,
                                                const std::vector<Slipping_rotation>& rotations, double greatest_rms) {
   auto count = std::count_if(rotations.begin(), rotations.end(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whole surfaces in coordinates with the centroid at 0, with the corners that reveal exact symmetries.
+// Whole surfaces in coordinates with the centroid at 0, and their corners, which reveal exact symmetries.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_CENTERED_SURFACE_3_H
 #define EQUIAFFINE_SRC_REGISTRATION_CENTERED_SURFACE_3_H
 
@@ -31,16 +31,16 @@
 
 namespace equiaffine::internal {
 
-/// A vertex whose angles do not add up to that of a plane or a half-plane, or at which a border bends. Corners depend
-/// on the shape alone: however faces are cut into triangles, a symmetry moves corners to corners with the same angle.
+/// A vertex whose angles do not add up to that of a plane or a half-plane, or where a border bends. Corners depend
+/// only on the shape, not on the triangulation of faces: a symmetry moves corners to corners with the same angle.
 struct Corner {
   Eigen::Vector3d point;
-  double angle; ///< the sum of the angles of its triangles, and of that between edges of a border
-  double error; ///< of the angle, by the rounding of coordinates
+  double angle; ///< sum of the angles of its triangles and of that between border edges
+  double error; ///< of the angle, due to rounding of coordinates
   bool is_on_border;
 };
 
-/// The sum of the angles between edges of the border at each vertex, 0 at those that have no two; `edges` are sorted.
+/// The sum of the angles between border edges at each vertex; 0 if there are not two. `edges` are sorted.
 inline std::vector<double> angles_of_borders(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
   constexpr auto none = std::numeric_limits<std::size_t>::max();
   std::vector<double> angles(mesh.points.size());
@@ -63,7 +63,7 @@ inline std::vector<double> angles_of_borders(const Triangles_3& mesh, const std:
   return angles;
 }
 
-/// The corners of a mesh with these sorted edges, whose coordinates have a rounding error.
+/// The corners of a mesh whose coordinates have a rounding error. `edges` are sorted.
 inline std::vector<Corner> corners_of(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges,
                                       double rounding) {
   constexpr double least_difference = 1e-3, greatest_error = 0.1, pi = std::numbers::pi;
@@ -88,12 +88,12 @@ inline std::vector<Corner> corners_of(const Triangles_3& mesh, const std::vector
   return corners;
 }
 
-/// The search for all rotations and reflections about the origin that move the corners of a mesh to each other. Two
-/// corners that are not in line with the origin determine a map together with their images, which are among the few
-/// corners at the same distance and with the same angle.
+/// Searches for all rotations and reflections about the origin that move the corners of a mesh to each other. Two
+/// corners that are not collinear with the origin determine a map together with their images, which are among the
+/// few corners at the same distance and with the same angle.
 class Corner_symmetry_search {
 public:
-  /// Corners that are nearer to each other than `tolerance` are equal.
+  /// Corners closer to each other than `tolerance` are equal.
   Corner_symmetry_search(std::vector<Corner> corners, double tolerance)
       : corners_(std::move(corners)), tolerance_(tolerance) {
     std::stable_sort(corners_.begin(), corners_.end(),
@@ -103,7 +103,7 @@ public:
     tree_ = Point_tree<3>(points);
   }
 
-  /// Returns the maps but the identity; nothing if there are too few corners, or too many that are alike.
+  /// Returns the maps without the identity; nothing if there are too few corners, or too many similar ones.
   std::optional<std::vector<Affine_map_3>> run(bool in_threads, bool allows_reflections) const {
     const auto base = choose_base();
     if (!base) return std::nullopt;
@@ -139,7 +139,7 @@ private:
            std::abs(a.point.norm() - b.point.norm()) <= 2 * tolerance_;
   }
 
-  /// The corners that may be images of a corner.
+  /// The possible images of a corner.
   std::vector<std::size_t> alike(std::size_t i) const {
     const double radius = corners_[i].point.norm();
     const auto begin = std::lower_bound(corners_.begin(), corners_.end(), radius - 2 * tolerance_,
@@ -150,9 +150,9 @@ private:
     return result;
   }
 
-  /// Returns the two corners with the fewest corners like them.
+  /// Returns the two corners with the fewest similar corners.
   std::optional<std::array<std::size_t, 2>> choose_base() const {
-    constexpr std::size_t most_tried = 400; // corners at the same distance make the count of all of them slow
+    constexpr std::size_t most_tried = 400; // counting is slow if many corners have the same distance
     if (corners_.size() < 3) return std::nullopt;
     const double greatest = corners_.back().point.norm();
     std::vector<std::pair<std::size_t, std::size_t>> order;
@@ -169,7 +169,7 @@ private:
     return std::nullopt;
   }
 
-  /// An orthonormal frame of two corners.
+  /// An orthonormal frame from two corners.
   Eigen::Matrix3d frame_of(std::size_t i, std::size_t j) const {
     Eigen::Matrix3d frame;
     frame.col(0) = corners_[i].point.normalized();
@@ -178,11 +178,11 @@ private:
     return frame;
   }
 
-  /// Returns the map that moves corners nearest to their images (K. Arun et al., Least-squares fitting of two 3-D point
-  /// sets, 1987), if there is one for each of them.
+  /// Returns the map that moves corners closest to their images (K. Arun et al., Least-squares fitting of two 3-D
+  /// point sets, 1987), if each corner has an image.
   std::optional<Affine_map_3> refined(const Eigen::Matrix3d& matrix) const {
     Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
-    const double limit = 8 * tolerance_; // the two corners of the base make the errors of others larger
+    const double limit = 8 * tolerance_; // the two corners of the base amplify the errors of others
     const std::size_t count = std::min(corners_.size(), most_verified);
     for (std::size_t n = 0; n < count; ++n) {
       const Corner& c = corners_[corners_.size() - 1 - n * corners_.size() / count];
@@ -199,29 +199,29 @@ private:
     return Affine_map_3{u * v.transpose(), Eigen::Vector3d::Zero()};
   }
 
-  std::vector<Corner> corners_; ///< by their distance from the origin
+  std::vector<Corner> corners_; ///< sorted by distance from the origin
   double tolerance_;
   Point_tree<3> tree_;
 };
 
-/// Distances below this are zero, if coordinates have this rounding, both a part of the size.
+/// Distances below this are zero for coordinates with this rounding; both are relative to the size.
 inline double exact_distance(double rounding) { return 6 * rounding + 1e-11; }
 
-/// A surface whose symmetries are sought, in coordinates in which its area has centroid 0 and size 1. For affine maps
-/// the solid has, before that, covariance 1, and the area is the one there.
+/// A surface in a search for symmetries, in coordinates in which its area has centroid 0 and size 1. For affine maps
+/// the solid is first transformed to covariance 1, and the area is the transformed one.
 struct Centered_surface_3 {
-  /// The proportions in which distances are stated: those of the surface, with its own centroid 0 and size 1.
+  /// The proportions in which distances are reported: those of the surface, with its own centroid 0 and size 1.
   struct Proportions {
     Affine_map_3 map = {}; ///< from the coordinates of the samples
     std::shared_ptr<const Surface_distances> distances = {};
     double size = 1;         ///< of the surface, in its unit
-    double rounding = 1e-12; ///< of points on the surface, a part of the size
-    double spacing = 0;      ///< the greatest one of the samples
+    double rounding = 1e-12; ///< of points on the surface, relative to the size
+    double spacing = 0;      ///< the largest one of the samples
 
-    /// The matrix of normals. The length of the image of a unit normal is the weight of its area.
+    /// The matrix for normals. The length of the image of a unit normal is the weight of its area.
     Eigen::Matrix3d of_normals() const { return map.matrix.inverse().transpose(); }
 
-    /// The least length of the image of a unit vector.
+    /// The smallest length of the image of a unit vector.
     double least_stretch() const { return map.matrix.jacobiSvd().singularValues()[2]; }
   };
 
@@ -230,9 +230,9 @@ struct Centered_surface_3 {
   Proportions own = {};
   Affine_map_3 map = {};                           ///< from the coordinates of the surface to these
   std::array<std::vector<Corner>, 2> corners = {}; ///< of a mesh, to its rounding and to that of few digits
-  std::vector<Eigen::Vector3d> checked = {};       ///< more points: each vertex and each triangle of a mesh has one
+  std::vector<Eigen::Vector3d> checked = {};       ///< more points: one for each vertex and each triangle of a mesh
   double rounding = 1e-12;                         ///< of points on the surface
-  bool is_exact = false;           ///< whether points are on a surface up to rounding, as those of a formula
+  bool is_exact = false;           ///< whether points are on the surface up to rounding, as for a formula
   std::string reason_against = {}; ///< why its symmetries cannot be found, if they cannot
 
   /// The square roots of the eigenvalues of the covariance of the area.
@@ -241,14 +241,14 @@ struct Centered_surface_3 {
     return solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   }
 
-  /// 1 for surfaces as thick as they are wide, less for thin ones, whose distances are to be small beside their
+  /// 1 for surfaces as thick as they are wide, less for thin ones, whose distances must be small relative to their
   /// thickness.
   double thickness() const { return std::min(1.0, 3 * std::sqrt(3.0) * extents()[0]); }
 };
 
-/// Whether a mesh, whose coordinates have a rounding error, has rigid symmetries to rounding by its corners. Then it is
-/// a solid with these corners: a scan has no such symmetries, and the corners of a fine sampling of a smooth surface
-/// are flatter.
+/// Whether a mesh, whose coordinates have a rounding error, has rigid symmetries to rounding according to its
+/// corners. Then it is a solid with these corners: a scan has no such symmetries, and the corners of a fine sampling
+/// of a smooth surface are flatter.
 inline bool has_group_of_corners(bool in_threads, const Triangles_3& mesh, double rounding) {
   constexpr double least_defect = 0.05; // a prism with 100 sides has .063
   const Affine_map_3 map = centering_map(area_moments(mesh));
@@ -262,7 +262,7 @@ inline bool has_group_of_corners(bool in_threads, const Triangles_3& mesh, doubl
   return maps && !maps->empty();
 }
 
-/// The error of coordinates that have been written with four decimals, a part of the size.
+/// The error of coordinates written with four decimals, relative to the size.
 constexpr double rounding_of_few_digits = 5e-5;
 
 /// Holes of a mesh are closed for the moments of its solid if that changes these by less.
@@ -276,7 +276,7 @@ inline Centered_surface_3 surface_without_symmetries(std::string reason) {
   return result;
 }
 
-/// The corners of all triangles, and their centroids.
+/// The used vertices of a mesh, and the centroids of its triangles.
 inline std::vector<Eigen::Vector3d> points_of_facets(const Triangles_3& mesh) {
   std::vector<Eigen::Vector3d> points;
   std::vector<bool> is_used(mesh.points.size());
@@ -296,7 +296,7 @@ inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kin
   Centered_surface_3 result;
   if (!keeps_angles(kind)) {
     const auto volume = Solid_moments(mesh, edges).moments(area.centroid, greatest_change_by_holes);
-    if (!volume) return surface_without_symmetries("the mesh bounds no solid, by whose moments affine maps are found");
+    if (!volume) return surface_without_symmetries("the mesh does not bound a solid, which affine maps need");
     result.map = whitening_map(*volume);
   }
   result.map = centering_map(area_moments(transformed(mesh, result.map))) * result.map;
@@ -318,8 +318,8 @@ inline Centered_surface_3 centered_surface(const Triangles_3& mesh, Map_kind kin
   return result;
 }
 
-/// Moves samples near an ellipsoid to the sphere with center 0 and radius 1, by the least squares of a quadric, and
-/// returns the map. What moments of lines are off is much beside what tells such a surface from an ellipsoid.
+/// Moves samples near an ellipsoid to the sphere with center 0 and radius 1, by least squares for a quadric, and
+/// returns the map. Moments from lines are too inaccurate to distinguish such a surface from an ellipsoid.
 inline Affine_map_3 move_to_sphere(Area_samples_3& samples) {
   constexpr double nearness = 0.02;
   const auto quadric = quadric_near(samples.points, nearness);
@@ -336,7 +336,8 @@ inline Affine_map_3 move_to_sphere(Area_samples_3& samples) {
   return map;
 }
 
-/// The proportions of the zero set of a function, by samples in other coordinates to which a map leads.
+/// The proportions of the zero set of a function, from samples in other coordinates, which are the image of those of
+/// the function under a map.
 inline Centered_surface_3::Proportions own_proportions(const Any_function_3& function, Area_samples_3 samples,
                                                        const Affine_map_3& to) {
   const Affine_map_3 back = to.inverse();
@@ -368,16 +369,16 @@ inline Centered_surface_3 centered_surface(bool in_threads, const Any_function_3
   result.is_exact = true;
   if (!keeps_angles(kind)) {
     const Area_samples_3 first = function_samples(in_threads, Mapped_function_3(function, {}), samples_of_function);
-    if (first.is_cut) return surface_without_symmetries("the surface is cut by the box of the function");
+    if (first.is_cut) return surface_without_symmetries("the box of the function cuts the surface");
     if (!first.volume || first.volume->covariance.llt().info() != Eigen::Success)
-      return surface_without_symmetries("the surface bounds no solid, by whose moments affine maps are found");
+      return surface_without_symmetries("the surface does not bound a solid, which affine maps need");
     result.map = whitening_map(*first.volume);
   }
   result.samples = function_samples(in_threads, Mapped_function_3(function, result.map), samples_of_function);
   Area_samples_3& samples = result.samples;
-  if (samples.is_cut) return surface_without_symmetries("the surface is cut by the box of the function");
+  if (samples.is_cut) return surface_without_symmetries("the box of the function cuts the surface");
   if (samples.points.size() < samples_of_function)
-    return surface_without_symmetries("lines met the surface at too few points");
+    return surface_without_symmetries("too few sample points of the surface were found on random lines");
   if (!keeps_angles(kind)) result.map = move_to_sphere(samples) * result.map;
   const Affine_map_3 centering = centering_map(samples.area);
   for (Eigen::Vector3d& p : samples.points) p = centering(p);

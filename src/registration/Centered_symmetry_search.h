@@ -22,13 +22,13 @@
 
 namespace equiaffine::internal {
 
-/// Thresholds of distances, parts of the size.
+/// Thresholds of distances, relative to the size.
 struct Symmetry_thresholds {
   double exact = 0, turn = 0, approximate = 0.01, none = 0.03;
 
-  /// A symmetry is exact if it holds to rounding at every point. Triangles that stand for a smooth surface turn to
-  /// within their own error. Thin surfaces have less than their thickness allows. With a `tolerance` above 0, maps up
-  /// to it are sought, and a surface turns to within it.
+  /// A symmetry is exact if it holds to rounding at every point. Triangles approximating a smooth surface turn to
+  /// within their own error. Thresholds are smaller for thin surfaces. A `tolerance` above 0 is the limit for maps
+  /// to search, and for turning.
   Symmetry_thresholds(const Centered_surface_3& surface, double tolerance) {
     const double thickness = surface.thickness(), facet_error = surface.samples.facet_error;
     exact = exact_distance(surface.rounding);
@@ -41,30 +41,30 @@ struct Symmetry_thresholds {
 
 /// A finite group of maps, each of which moves the surface onto itself to within an rms distance.
 struct Symmetry_level {
-  std::vector<Centered_map> maps; ///< in the coordinates of the surface, the identity first, then by rms
-  double rms = 0;                 ///< the largest of a map, a part of the size, in the proportions of the surface
-  double greatest = 0;            ///< the largest distance of a moved point from the surface, there
-  double searched_rms = 0;        ///< the largest of a map, in the proportions in which maps are sought
-  double next_rms =
-      std::numeric_limits<double>::infinity(); ///< the least of a map that is not in the group, a lower bound
+  std::vector<Centered_map> maps; ///< in the coordinates of the surface; the identity first, then by rms
+  double rms = 0;                 ///< maximum of its maps, relative to the size, in the proportions of the surface
+  double greatest = 0;            ///< largest distance of a moved point from the surface, there
+  double searched_rms = 0;        ///< maximum of its maps, in the proportions of the search
+  double next_rms = std::numeric_limits<double>::infinity(); ///< a lower bound on the rms of maps outside of the group
 };
 
 /// The symmetries of a whole surface.
 struct Centered_symmetries {
   Symmetry_verdict verdict = Symmetry_verdict::UNDECIDED;
   std::string reason = {};                 ///< of an undecided case
-  std::vector<Symmetry_level> levels = {}; ///< groups, each of which holds the one before, with growing rms
-  Affine_slippage_3 continuous = {};       ///< the rotations of the continuous group: none, 1 or 3
-  double complete_to = 0;                  ///< all maps with a smaller rms were tried, in the surface's proportions
-  double least_rms = 0;                    ///< the least of a map beside the identity, a part of the size
+  std::vector<Symmetry_level> levels = {}; ///< nested groups with increasing rms
+  Affine_slippage_3 continuous = {};       ///< rotations of the continuous group: none, 1 or 3
+  double complete_to = 0;                  ///< all maps with a smaller rms were tried, in the proportions of the
+                                           ///< surface
+  double least_rms = 0;                    ///< smallest rms of a map other than the identity, relative to the size
 };
 
-/// The search for the symmetries of a whole surface. They keep the centroid of its area, so that all rotations about it
-/// are searched; maps that are found are refined, and complete groups of them are the result.
+/// Searches for the symmetries of a whole surface. They preserve the centroid of its area, so all rotations about it
+/// are searched. Maps that are found are refined; the result consists of complete groups of them.
 class Centered_symmetry_search {
 public:
-  /// The symmetries of a bounded surface keep its volume, so that similarities are rigid, and affine maps equiaffine.
-  /// A tolerance of 0 is none; the levels up to it do not depend on it.
+  /// Symmetries of a bounded surface preserve its volume, so similarities are rigid, and affine maps equiaffine. A
+  /// tolerance of 0 means none; the levels up to it do not depend on it.
   Centered_symmetry_search(bool in_threads, const Centered_surface_3& surface, Map_kind kind, bool allows_reflections,
                            double tolerance = 0)
       : in_threads_(in_threads), surface_(surface), kind_(keeps_angles(kind) ? Map_kind::RIGID : Map_kind::EQUIAFFINE),
@@ -94,20 +94,21 @@ public:
     return result;
   }
 
-  /// The maps that were found beside the identity, by their rms, in the coordinates of the Centered_surface_3.
+  /// The maps that were found, without the identity, sorted by rms, in the coordinates of the Centered_surface_3.
   const std::vector<Centered_map>& found() const { return found_; }
 
 private:
   static constexpr std::size_t largest_group = 1000;
-  static constexpr std::size_t fewest_verified = 6000, most_verified = 4000000; ///< points of a map, and of all of them
+  static constexpr std::size_t fewest_verified = 6000, most_verified = 4000000; ///< points for one map, and for all
+                                                                                ///< maps
   static constexpr double tolerance_of_products = 0.1;
-  /// Maps are sought to three times a tolerance at most, so that less is decided for longer bodies.
+  /// Maps are searched to at most three times a tolerance, so less is decided for longer bodies.
   static constexpr double least_stretch_of_tolerance = 1.0 / 3;
 
-  /// Adds rotations of any angle, if the surface keeps to itself by them. A finite group to rounding says more, if
-  /// there is one, unless turns up to a tolerance were asked for.
+  /// Adds rotations of any angle if they move the surface onto itself. A finite group to rounding, if there is one,
+  /// is stronger, unless turns up to a tolerance were requested.
   bool add_continuous(std::vector<Slipping_rotation> rotations, Centered_symmetries& result) const {
-    if (!surface_.is_exact && tolerance_ == 0) // a tolerance that is given is one of the rms
+    if (!surface_.is_exact && tolerance_ == 0) // a given tolerance is one of the rms
       std::erase_if(rotations, [this](const Slipping_rotation& r) {
         return r.rms < thresholds_.turn && !keeps_to_facets(in_threads_, surface_, r, thresholds_.exact);
       });
@@ -124,8 +125,8 @@ private:
     return true;
   }
 
-  /// Whether the surface turns about an axis to within less than what matters, and has a group of corners, so that a
-  /// search would find rotations of any angle.
+  /// Whether the surface turns about an axis to within the threshold, and has a group of corners. A search would
+  /// then find rotations of any angle.
   bool turns_about(const std::vector<Slipping_rotation>& rotations, const Centered_symmetries& result) const {
     return tolerance_ == 0 && !result.levels.empty() && rotations.front().rms < thresholds_.none;
   }
@@ -144,7 +145,7 @@ private:
     add(std::move(found));
   }
 
-  /// Adds maps that are not the same as others.
+  /// Adds maps that differ from the known ones.
   void add(std::vector<Centered_map> maps) {
     maps = different(std::move(maps), std::numeric_limits<double>::infinity());
     std::erase_if(maps, [this](const Centered_map& map) {
@@ -166,8 +167,8 @@ private:
     add(std::move(maps));
   }
 
-  /// The least rms in the proportions of the surface of a map whose rms is 1 where maps are sought: no distance is
-  /// stretched less, and no part of the area has a smaller weight.
+  /// A lower bound, in the proportions of the surface, on the rms of a map whose rms is 1 in those of the search: no
+  /// distance is stretched less, and no part of the area has a smaller weight.
   double least_own_rms() const {
     if (surface_.own.distances == surface_.distances) return 1;
     const Eigen::Matrix3d of_normals = surface_.own.of_normals();
@@ -183,12 +184,12 @@ private:
   /// Distances below this are zero in the proportions of the surface.
   double own_exact() const { return exact_distance(surface_.own.rounding); }
 
-  /// Maps that are worse after their refinement are given up.
+  /// Maps with a larger rms after refinement are dropped.
   double gate() const { return std::max(0.06, 2 * thresholds_.none); }
 
   double found_rms() const { return found_.empty() ? std::numeric_limits<double>::infinity() : found_.front().rms; }
 
-  /// Returns the groups of the maps up to places where the rms jumps, each with the one before.
+  /// Returns the groups of all maps before each jump of the rms.
   std::vector<Symmetry_level> levels() {
     constexpr double jump = 3;
     std::vector<Symmetry_level> result;
@@ -204,7 +205,7 @@ private:
     return result;
   }
 
-  /// Returns the group of the first `count` maps, if they have one, all of whose maps are good.
+  /// Returns the group of the first `count` maps, if they generate one whose maps are all good.
   std::optional<Symmetry_level> level_of(std::size_t count) {
     std::vector<Affine_map_3> maps(1);
     for (std::size_t i = 0; i < count; ++i) maps.push_back(found_[i].map);
@@ -238,8 +239,8 @@ private:
     return *std::max_element(rms.begin(), rms.end());
   }
 
-  /// The maps of a group with their rms, both ways, in the proportions of the surface: the points that one way moves
-  /// are those that the inverse map moves.
+  /// The maps of a group with their rms in both directions, in the proportions of the surface: the inverse map
+  /// covers the other direction.
   std::vector<Centered_map> verified(const Finite_group& group) const {
     const std::size_t points = std::max(fewest_verified, most_verified / group.maps.size());
     std::vector<Distances_of_moved> distances(group.maps.size(), {0, 0});
@@ -257,8 +258,8 @@ private:
     return result;
   }
 
-  /// Adds products, refined, until there is no new one. Returns false if one of them is bad, or there are too many: a
-  /// group of as many maps again would have been found.
+  /// Adds refined products until there is no new one. Returns false if one of them is bad, or there are too many:
+  /// the maps of a group of that size would have been found.
   bool add_products(std::vector<Affine_map_3>& maps) const {
     const std::size_t most = std::min(largest_group, 4 * maps.size() + 8);
     for (std::size_t i = 1; i < maps.size(); ++i)
@@ -280,8 +281,8 @@ private:
     return text.str();
   }
 
-  /// A verdict says what is known of maps to within `approximate`. A group whose next map is many times as bad is one
-  /// however near other maps come.
+  /// Decides about maps to within `approximate`. A group whose next map is many times worse counts, regardless of
+  /// how close other maps come.
   void decide(const Slipping_rotation& slipping, Centered_symmetries& result) const {
     constexpr double gap = 100;
     const double slipping_rms = slipping.rms;
@@ -298,19 +299,19 @@ private:
       result.verdict = Symmetry_verdict::APPROXIMATE;
     } else if (slipping_rms < thresholds_.approximate && finite_rms > slipping_rms / 3) {
       result.reason = "rotations about an axis move the surface onto itself to within " + percent(slipping.own_rms) +
-                      ", and no group of fewer maps holds much better";
+                      ", and no finite group fits much better";
     } else if (best > thresholds_.none && surface_.thickness() < 0.15) {
-      result.reason = "the surface is so thin that it is near to its images";
+      result.reason = "the surface is so thin that it is close to its images";
     } else if (is_group) {
       result.verdict = Symmetry_verdict::APPROXIMATE;
     } else if (best > thresholds_.approximate && complete_to_ > thresholds_.approximate) {
       result.verdict = Symmetry_verdict::NONE;
     } else if (best > thresholds_.approximate) {
-      result.reason = "too many rotations move the surface nearly onto itself for all to be tried";
+      result.reason = "too many rotations move the surface nearly onto itself to try them all";
     } else {
       result.reason = "a map moves the surface onto itself to within " +
                       percent(own_rms(Centered_pair(surface_), found_.front().map, points_of_rms, best)) +
-                      ", but maps like it are no group";
+                      ", but similar maps do not form a group";
     }
   }
 

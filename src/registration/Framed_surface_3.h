@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The points of a surface with frames and invariants, by which two surfaces are matched.
+// The points of a surface with frames and invariants, used to match two surfaces.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_FRAMED_SURFACE_3_H
 #define EQUIAFFINE_SRC_REGISTRATION_FRAMED_SURFACE_3_H
 
@@ -32,18 +32,18 @@
 
 namespace equiaffine::internal {
 
-/// The signature of a point, which no map changes, and the logarithm of a power of the scale of its frame, which maps
-/// of determinant 1 and -1 do not change either.
+/// The signature of a point, which is invariant under all maps of the kind, and the logarithm of a power of the
+/// scale of its frame, which is also invariant if the determinant is 1 or -1.
 using Invariants = Eigen::Matrix<double, 5, 1>;
 using Gradient_of_invariants = Eigen::Matrix<double, 5, 2>;
 
-/// The number of invariants of maps of a kind.
+/// The number of invariants under maps of a kind.
 inline int number_of_invariants(Map_kind kind) { return keeps_volume(kind) ? 5 : 4; }
 
-/// A point of a surface with a frame that maps carry along, and the invariants around it: the affine frame, or, for
-/// maps that keep angles, the Euclidean one. The scale of the frame is such that a map with the matrix A carries the
-/// tangent vectors e1 and e2 to A e1 and A e2 without a weight, and the gradient, the derivatives along them, does not
-/// change.
+/// A point of a surface with a frame that is covariant under maps, and the invariants around it. The frame is the
+/// affine one, or the Euclidean one for maps that preserve angles. Its scale is such that a map with the matrix A
+/// maps the tangent vectors e1 and e2 to A e1 and A e2 without a weight, and the gradient, the derivatives along
+/// them, is invariant.
 struct Framed_point_3 {
   Eigen::Vector3d point;
   Eigen::Matrix3d basis; ///< columns e1, e2 and a transversal vector
@@ -51,21 +51,21 @@ struct Framed_point_3 {
   Gradient_of_invariants gradient;
   double quality = 0;       ///< 0 for a point without a frame
   double certainty = 1;     ///< of the curvatures
-  bool is_elliptic = false; ///< only the affine frames of elliptic and hyperbolic points are of different kinds
+  bool is_elliptic = false; ///< distinguishes the affine frames of elliptic and hyperbolic points
 
   bool has_frame() const { return quality > 0; }
 };
 
 inline Eigen::Vector3d vector_of(const std::array<double, 3>& x) { return {x[0], x[1], x[2]}; }
 
-/// The map of the kind that carries one frame to the other, and its point to the other's.
+/// The map of a kind that moves one point and its frame to the other.
 inline Affine_map_3 map_between(const Framed_point_3& p, const Framed_point_3& q, Map_kind kind) {
   const Eigen::Matrix3d matrix = nearest_of_kind(q.basis * p.basis.inverse(), kind);
   return {matrix, q.point - matrix * p.point};
 }
 
-/// The principal curvatures of a level set, the greater one first, and how they change along their directions. Not
-/// finite where the gradient is zero; arbitrary at umbilics. Units: 1/length and 1/length^2.
+/// The principal curvatures of a level set, the greater one first, and their derivatives along the principal
+/// directions. Not finite where the gradient is zero; arbitrary at umbilics. Units: 1/length and 1/length^2.
 struct Derivatives_of_curvature {
   Eigen::Vector2d k;
   Eigen::Matrix2d gradient;               ///< row i is that of k[i]
@@ -73,9 +73,9 @@ struct Derivatives_of_curvature {
   Eigen::Vector3d normal;                 ///< along the gradient of the function
 };
 
-/// The derivatives of f are those of the level set as a graph over its tangent plane by the chain rule: with
-/// f = g h + A / 2 + h B + T / 6 + ..., of which A, B and T are forms of degree 2, 1 and 3, the height is
-/// h = -A / (2 g) - (T - 3 A B / g) / (6 g) + ...
+/// Derivatives of f determine those of the level set as a graph over its tangent plane by the chain rule: if f = g h
+/// + A / 2 + h B + T / 6 + ..., where A, B and T are forms of degree 2, 1 and 3, then the height is h = -A / (2 g) -
+/// (T - 3 A B / g) / (6 g) + ...
 inline Derivatives_of_curvature derivatives_of_curvature(const Jet_3<double>& jet) {
   const Euclidean_structure_3<double> s = euclidean_structure(Monge_chart_3<double>(jet));
   Derivatives_of_curvature result;
@@ -96,7 +96,7 @@ inline Derivatives_of_curvature derivatives_of_curvature(const Jet_3<double>& je
   return result;
 }
 
-// Computes the frame at a point that maps of a kind carry along, with its invariants and their gradient.
+// Frames at a point that are covariant under maps of a kind, with their invariants and the gradient of these.
 
 /// The point with its affine frame e1 / sqrt(scale), e2 / sqrt(scale), xi / scale.
 inline Framed_point_3 affine_framed_point(const Jet_3<double>& jet, const Eigen::Vector3d& p) {
@@ -113,11 +113,13 @@ inline Framed_point_3 affine_framed_point(const Jet_3<double>& jet, const Eigen:
   return result;
 }
 
-/// The point with its Euclidean frame: the two principal directions, and the normal to whose side the surface is curved
-/// along the first, times the length L = 1 / |(k1, k2)|, which decreases along both. The first direction is that of the
-/// curvature of larger magnitude if L decreases equally fast along both, or that along which L decreases faster if both
-/// magnitudes are equal, as on minimal surfaces. The signature is the other curvature, the slopes of -L along both, and
-/// that of the angle of (k1, k2) along the first, all times powers of L.
+/// The point with its Euclidean frame times the length L = 1 / |(k1, k2)|. The tangent vectors are the principal
+/// directions, oriented so that L decreases along both; the third vector is the normal toward the side to which the
+/// surface curves along the first direction. The first direction is chosen by the larger of k^2 + (slope of L)^2
+/// along it, where k is its normalized curvature; if both slopes are equal this is the curvature of larger
+/// magnitude, and if both magnitudes are equal, as on minimal surfaces, the faster decrease of L. The signature
+/// consists of the other curvature, the slopes of -L along both directions, and the slope of the angle of (k1, k2)
+/// along the first, all times powers of L.
 inline Framed_point_3 euclidean_framed_point(const Jet_3<double>& jet, const Eigen::Vector3d& p) {
   Framed_point_3 result;
   result.point = p;
@@ -144,12 +146,12 @@ inline Framed_point_3 framed_point_of(const Jet_3<double>& jet, const Eigen::Vec
   return keeps_angles(kind) ? euclidean_framed_point(jet, p) : affine_framed_point(jet, p);
 }
 
-/// The step of differences in units of the tangent vectors of `Framed_point_3::basis`. Errors of gradients are some
-/// 1e-5 of their size: they only choose between candidates and direct Newton's steps.
+/// The step of differences in units of the tangent vectors of `Framed_point_3::basis`. Errors of gradients are about
+/// 1e-5 of their size. This suffices because gradients only select candidates and direct Newton steps.
 constexpr double step_of_gradient = 0x1p-8;
 
-/// Computes the point with its frame and gradient, by 5 expansions taylor(p). A map carries the points of these
-/// differences along.
+/// Computes the point with its frame and gradient, with 5 expansions taylor(p). The points of these differences are
+/// covariant under maps.
 template <class Taylor>
 Framed_point_3 framed_point(const Taylor& taylor, const Eigen::Vector3d& p, Map_kind kind) {
   Framed_point_3 result = framed_point_of(taylor(p), p, kind);
@@ -165,20 +167,20 @@ Framed_point_3 framed_point(const Taylor& taylor, const Eigen::Vector3d& p, Map_
   return result;
 }
 
-/// The distance from a point to the surface to first order, and the direction in which it grows. The distance is NaN
-/// where the function is not defined.
+/// The distance from a point to the surface to first order, and the direction in which it increases. The distance is
+/// NaN where the function is undefined.
 struct Signed_distance_3 {
   double distance;
   Eigen::Vector3d normal;
 };
 
-/// A function whose domain is its box, with frames on its zero set and distances from it.
+/// A function restricted to its box, with frames on its zero set and distances from it.
 class Framed_function_3 {
 public:
   explicit Framed_function_3(Any_function_3 function) : function_(std::move(function)), box_(function_.bbox()) {}
   virtual ~Framed_function_3() = default;
 
-  /// A benchmark overrides this to make frames wrong.
+  /// A benchmark overrides this to falsify frames.
   virtual Framed_point_3 framed_point(const Eigen::Vector3d& p, Map_kind kind) const {
     return internal::framed_point([this](const Eigen::Vector3d& q) { return taylor(q); }, p, kind);
   }
@@ -197,7 +199,7 @@ public:
     return {jet.value() / length, gradient / length};
   }
 
-  /// Moves a point towards the surface by Newton's steps along the gradient.
+  /// Moves a point towards the surface by Newton steps along the gradient.
   Eigen::Vector3d moved_to_surface(Eigen::Vector3d p, int steps) const {
     for (int step = 0; step < steps; ++step) {
       const auto [distance, normal] = this->distance(p);
@@ -235,7 +237,7 @@ std::vector<T> random_elements(const std::vector<T>& elements, std::size_t count
   return result;
 }
 
-/// The root of the mean squared distance of points from their mean.
+/// The root mean square distance of points from their mean.
 inline double size_of_points(const std::vector<Eigen::Vector3d>& points) {
   if (points.empty()) return 0;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -245,15 +247,15 @@ inline double size_of_points(const std::vector<Eigen::Vector3d>& points) {
   return std::sqrt(sum);
 }
 
-/// A surface that is ready to be matched: points with their frames, and a tree of invariants for each kind of point.
+/// A surface prepared for matching: points with their frames, and a tree of invariants for each kind of point.
 struct Framed_surface_3 {
-  const Framed_function_3& function;   ///< frames and matches belong to it
-  const Framed_function_3& refinement; ///< maps are refined and judged on it
+  const Framed_function_3& function;   ///< used for frames and matches
+  const Framed_function_3& refinement; ///< used to refine and judge maps
   std::vector<Framed_point_3> points = {};
-  std::vector<Eigen::Vector3d> probes = {}; ///< on the zero set of `refinement`, at random: maps are judged by them
+  std::vector<Eigen::Vector3d> probes = {}; ///< random points on the zero set of `refinement`, used to judge maps
   double size = 0;                          ///< size_of_points
   double spacing = 0;                       ///< 3/2 of the median distance between neighbors
-  double noise = 0;  ///< the median distance of the given points from the zero set of `refinement`, beside `size`
+  double noise = 0;  ///< median distance of the given points from the zero set of `refinement`, relative to `size`
   double chance = 0; ///< see chance_of_nearness
   std::array<std::vector<std::size_t>, 2> usable = {}; ///< points with good frames: hyperbolic ones, elliptic ones
   std::array<Point_tree<5>, 2> trees = {};             ///< of their invariants
@@ -262,14 +264,14 @@ struct Framed_surface_3 {
   const Point_tree<5>& tree_of(const Framed_point_3& p) const { return trees[p.is_elliptic]; }
 };
 
-/// Points with a frame of less quality are not matched, unless almost all points are such, as those of an ellipsoid
-/// that is slightly disturbed. On quadrics the quality has the size of rounding.
+/// Points with a frame of lower quality are not matched, unless almost all points have one, as on a slightly
+/// perturbed ellipsoid. On quadrics the quality is of the order of rounding.
 constexpr double least_quality = 0.02, least_quality_of_exact_frames = 1e-5;
 
-/// These bounds keep the time of a search independent of the number of points given.
+/// These bounds make the time of a search independent of the number of given points.
 constexpr std::size_t most_framed_points = 6000, most_probes = 600;
 
-/// The invariants by which points are matched: those that maps of the kind keep, and zero for others.
+/// The invariants used to match points: those that maps of the kind preserve, and zero for the rest.
 inline Invariants kept_invariants(const Framed_point_3& p, Map_kind kind) {
   Invariants x = p.invariants;
   if (number_of_invariants(kind) < 5) x[4] = 0;
@@ -282,7 +284,7 @@ inline Gradient_of_invariants kept_gradient(const Framed_point_3& p, Map_kind ki
   return x;
 }
 
-/// The points that are in the domain, on the surface.
+/// Moves points to the surface, and removes those outside of its domain.
 inline std::vector<Eigen::Vector3d> moved_to_surface(bool in_threads, const Framed_function_3& surface,
                                                      std::vector<Eigen::Vector3d> points, int steps = 3) {
   parallel_for(
@@ -291,7 +293,7 @@ inline std::vector<Eigen::Vector3d> moved_to_surface(bool in_threads, const Fram
   return points;
 }
 
-/// The median distance of points from a surface, or 0 if it is not defined at any.
+/// The median distance of points from a surface, or 0 if it is undefined at all of them.
 inline double median_distance(bool in_threads, const Framed_function_3& surface,
                               const std::vector<Eigen::Vector3d>& points) {
   std::vector<double> distances(points.size());
@@ -302,7 +304,7 @@ inline double median_distance(bool in_threads, const Framed_function_3& surface,
   return distances.empty() ? 0 : median_of(std::move(distances));
 }
 
-/// 3/2 of the median distance of points from the nearest other one.
+/// 3/2 of the median distance of points from their nearest neighbor.
 inline double typical_spacing(const Framed_surface_3& surface) {
   std::vector<double> distances;
   for (const Framed_point_3& p : surface.points) {
@@ -312,8 +314,8 @@ inline double typical_spacing(const Framed_surface_3& surface) {
   return distances.empty() ? 0 : 1.5 * median_of(std::move(distances));
 }
 
-/// A random point of the box around points is nearer to the surface than t `size` with the probability of this times t,
-/// for small t. The estimate is half as large again, and at least 1/10.
+/// The probability that a random point of the bounding box is closer to the surface than t `size` is this number
+/// times t, for small t. The estimate is increased by one half, and at least 1/10.
 inline double chance_of_nearness(bool in_threads, const Framed_surface_3& surface) {
   constexpr std::size_t count = 2000;
   constexpr double distance = 0.01;
@@ -337,7 +339,7 @@ inline double chance_of_nearness(bool in_threads, const Framed_surface_3& surfac
   return std::max(0.1, 1.5 * double(near) / std::max(double(inside), 1.0) / distance);
 }
 
-/// The least quality of the points that are matched.
+/// The lowest quality of points to match.
 inline double least_quality_on(const std::vector<Framed_point_3>& points) {
   const auto good =
       std::count_if(points.begin(), points.end(), [](const auto& p) { return p.quality > least_quality; });
@@ -358,8 +360,8 @@ inline void build_trees(Framed_surface_3& surface, Map_kind kind) {
         Point_tree<5>(surface.usable[k], [&](std::size_t i) { return kept_invariants(surface.points[i], kind); });
 }
 
-/// Moves points along a surface by random steps, unless these leave its domain. Points on the nodes or edges of
-/// a lattice may lie on curves: where another surface meets this one in such a curve, many of them would be on it.
+/// Moves points along a surface by random steps, unless these leave its domain. Points on the nodes or edges of a
+/// lattice may lie on curves, and if another surface meets this one in such a curve, many of them would be on it.
 inline std::vector<Eigen::Vector3d> spread_over_surface(bool in_threads, const Framed_function_3& surface,
                                                         std::vector<Eigen::Vector3d> points, double longest_step) {
   constexpr int steps = 8;
@@ -375,7 +377,7 @@ inline std::vector<Eigen::Vector3d> spread_over_surface(bool in_threads, const F
   return moved_to_surface(in_threads, surface, std::move(points), steps);
 }
 
-/// Computes the frames of the points, of a random subset if there are very many.
+/// Computes the frames of the points, or of a random subset if there are too many.
 inline Framed_surface_3 framed_surface(bool in_threads, const Framed_function_3& function,
                                        const Framed_function_3& refinement, const std::vector<Eigen::Vector3d>& given,
                                        Map_kind kind, std::size_t most_points = most_framed_points) {
@@ -400,7 +402,7 @@ inline Framed_surface_3 framed_surface(bool in_threads, const Framed_function_3&
   return result;
 }
 
-/// Whether derivatives are those of the surface, and not of a fit, which has errors.
+/// Whether derivatives are exact, and not those of a fit, which has errors.
 inline bool has_exact_frames(const Framed_surface_3& surface) {
   return std::all_of(surface.points.begin(), surface.points.end(),
                      [](const Framed_point_3& p) { return p.certainty == 1; });

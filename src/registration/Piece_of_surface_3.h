@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pieces of surfaces that meshes give, and the evidence that their contact is for a map or against it.
+// Pieces of surfaces given as meshes, and the evidence of their contact for or against a map.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_PIECE_OF_SURFACE_3_H
 #define EQUIAFFINE_SRC_REGISTRATION_PIECE_OF_SURFACE_3_H
 
@@ -25,19 +25,19 @@
 
 namespace equiaffine::internal {
 
-/// The point of a piece that is nearest to another point.
+/// The point of a piece nearest to another point.
 struct Point_of_piece {
   Eigen::Vector3d point, normal;
-  bool is_on_border; ///< the surface may go on there
+  bool is_on_border; ///< the surface may continue there
 };
 
-/// The samples by which a map between pieces is judged.
+/// The number of samples used to judge a map between pieces.
 constexpr std::size_t samples_of_piece = 4000;
 
-/// A mesh as a part of the boundary of a solid, which goes on beyond the border of the mesh.
+/// A mesh as a part of the boundary of a solid, which continues beyond the border of the mesh.
 class Piece_of_surface_3 {
 public:
-  /// Takes a mesh with its sorted edges. Points are on the border to within `border_width`.
+  /// `edges` are sorted. Points within `border_width` of the border are on it.
   /// \pre the mesh has an area.
   Piece_of_surface_3(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges, std::size_t count,
                      double border_width)
@@ -47,10 +47,10 @@ public:
 
   const Area_samples_3& samples() const { return samples_; }
   bool is_closed() const { return !border_; }
-  double volume() const { return volume_; }         ///< that a closed mesh bounds, below 0 if it is inside out
-  bool is_oriented() const { return is_oriented_; } ///< whether neighbors have the same side
+  double volume() const { return volume_; }         ///< bounded by a closed mesh; negative if it is inside out
+  bool is_oriented() const { return is_oriented_; } ///< whether neighbors have consistent orientations
 
-  /// Whether a point is on the border is left out for those nearer than `touching`.
+  /// Skips the border test for points closer than `touching`.
   Point_of_piece nearest(const Eigen::Vector3d& p, double touching) const {
     const auto found = nearest_triangle(tree_, to_CGAL(p));
     const bool is_on_border = border_ && found.squared_distance > touching * touching &&
@@ -59,7 +59,7 @@ public:
   }
 
 private:
-  /// The edges of one triangle only, as triangles with two equal corners.
+  /// The edges of one triangle only, as degenerate triangles.
   static std::optional<Triangle_tree> border_of(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
     std::vector<Triangle_tree::Triangle_3> border;
     for (std::size_t i = 0, next = 0; i < edges.size(); i = next) {
@@ -72,7 +72,7 @@ private:
     return tree_of(std::move(border));
   }
 
-  /// Whether at most one in a hundred edges has two triangles on different sides.
+  /// Whether at most one in a hundred edges has two triangles with inconsistent orientations.
   static bool has_orientation(const std::vector<Edge_of_triangle>& edges) {
     std::size_t wrong = 0;
     for (std::size_t i = 0; i + 1 < edges.size(); ++i)
@@ -88,26 +88,26 @@ private:
   bool is_oriented_;
 };
 
-// Tells which points of two pieces of surfaces are in contact, and which contradict a map between them.
+// Determines which points of two pieces are in contact, and which contradict a map between them.
 
-/// Whether a point of one piece speaks for a map, or against it.
+/// The evidence of a point of one piece for or against a map.
 enum class Contact {
-  NONE,         ///< nothing, since the other piece may end there
+  NONE,         ///< none: the other piece may end there
   TOUCHING,     ///< the point is on the other surface
   CONTRADICTING ///< the other surface passes by the point
 };
 
-/// The distances below which points touch, and below which a surface that passes by is the same one, displaced.
+/// The distance below which points touch, and that below which a surface passing by is the same one, displaced.
 struct Contact_distances {
   double touching, passing_by;
 };
 
-/// A surface that passes by at less than this, beside the size of the smaller piece, is the same one.
+/// A surface passing by at a smaller distance, relative to the size of the smaller piece, is the same one.
 constexpr double greatest_displacement = 0.1;
 
-/// A point of one piece, with its normal, in the coordinates of the other one. A solid has another sheet between two
-/// with the same side, which is beyond the pieces if the two are as far apart as these are large, and two that are near
-/// each other have opposite sides.
+/// Classifies a point of one piece, with its normal, in the coordinates of the other one. Between two sheets of a
+/// solid with the same orientation there is another sheet; it is beyond the pieces if the distance is as large as
+/// these. Two sheets close to each other have opposite orientations.
 inline Contact contact_of(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, const Point_of_piece& nearest,
                           bool is_other_closed, const Contact_distances& distances) {
   constexpr double similar = 0.7, parallel = 0.85, opposite = -0.5;
@@ -122,7 +122,7 @@ inline Contact contact_of(const Eigen::Vector3d& p, const Eigen::Vector3d& norma
   return is_across && cosine > parallel ? Contact::CONTRADICTING : Contact::NONE;
 }
 
-/// A sample of one of two pieces that a map brings together, in the coordinates of the target.
+/// A sample of one of two pieces aligned by a map, in the coordinates of the target.
 struct Mapped_sample {
   Eigen::Vector3d point;
   Eigen::Vector3d nearest, normal; ///< of the other surface
@@ -132,7 +132,7 @@ struct Mapped_sample {
 /// The samples of the source and those of the target.
 using Mapped_samples = std::array<std::vector<Mapped_sample>, 2>;
 
-/// A similarity, with its inverse and its scale.
+/// A similarity with its inverse and its scale.
 struct Similarity_3 {
   Affine_map_3 map, inverse;
   double scale;
@@ -141,7 +141,7 @@ struct Similarity_3 {
       : map(m), inverse(m.inverse()), scale(std::cbrt(std::abs(m.matrix.determinant()))) {}
 };
 
-/// Brings the first `count` samples of both pieces together.
+/// Maps the first `count` samples of both pieces.
 inline Mapped_samples mapped_samples(const Piece_of_surface_3& source, const Piece_of_surface_3& target,
                                      const Affine_map_3& map, std::size_t count, const Contact_distances& distances) {
   const Similarity_3 s(map);
@@ -170,7 +170,8 @@ inline std::size_t count_of(const std::vector<Mapped_sample>& samples, Contact c
                                    [=](const Mapped_sample& sample) { return sample.contact == contact; }));
 }
 
-/// The nearest points of a piece from the cells of a cube around the origin: fast, and good to about a cell.
+/// Nearest points of a piece, precomputed for the cells of a cube around the origin: fast, and accurate to about a
+/// cell.
 class Nearest_of_cells {
 public:
   static Nearest_of_cells of(bool in_threads, const Piece_of_surface_3& piece) {
@@ -208,20 +209,20 @@ private:
   std::vector<Point> points_;
 };
 
-// Judges a map between two pieces of surfaces by the points in contact and those that contradict it.
+// Judges a map between two pieces by the points in contact and those that contradict it.
 
-/// The evidence that the contacts of two pieces are for a map, and against it.
+/// The evidence of the contacts of two pieces for and against a map.
 struct Contact_evidence {
-  std::array<double, 2> inliers{};        ///< the parts of the samples of source and target in contact
-  std::array<double, 2> contradictions{}; ///< those of the samples that say something
+  std::array<double, 2> inliers{};        ///< fractions of the samples of source and target in contact
+  std::array<double, 2> contradictions{}; ///< fractions of the informative samples that contradict
   double area = 0;                        ///< in contact
   double rms = std::numeric_limits<double>::infinity();
   double log10_false_alarms = 0;
-  double rigidity = 0;        ///< by how much small motions of the kind move points off the other surface, beside them
+  double rigidity = 0;        ///< displacement of points off the other surface per small motion of the kind
   double affine_rigidity = 0; ///< the same for affine maps, one of which may be free
 };
 
-/// The parts of the samples of source and target that contradict the map, of those that say something.
+/// The fractions of the informative samples of source and target that contradict the map.
 inline std::array<double, 2> contradictions_of(const Mapped_samples& samples) {
   std::array<double, 2> result;
   for (std::size_t side = 0; side < 2; ++side) {
@@ -243,8 +244,8 @@ inline std::vector<Mapped_point> informative_points(const std::vector<Mapped_sam
   return result;
 }
 
-/// The root mean squares, in increasing order, by which infinitesimal maps of a kind move the points in contact off the
-/// other surface, in units of the size of these points.
+/// The rms displacements, in increasing order, of the points in contact off the other surface by infinitesimal maps
+/// of a kind, in units of the size of these points.
 inline Eigen::VectorXd rigidities(const Mapped_samples& samples, Map_kind kind) {
   Moment_sums_3 sums(samples[0].front().point);
   std::vector<const Mapped_sample*> touching;
@@ -267,8 +268,8 @@ inline Eigen::VectorXd rigidities(const Mapped_samples& samples, Map_kind kind) 
   return solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
 }
 
-/// Judges a map by the contacts of both pieces. `chances` are the parts of the space within a unit of distance from the
-/// source and the target.
+/// Judges a map by the contacts of both pieces. `chances` are the fractions of space within a unit of distance from
+/// the source and the target.
 inline Contact_evidence contact_evidence(const Mapped_samples& samples, Map_kind kind,
                                          const std::array<double, 2>& areas, const std::array<double, 2>& chances,
                                          const Judgement& how) {

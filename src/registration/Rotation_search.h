@@ -23,8 +23,8 @@
 
 namespace equiaffine::internal {
 
-/// The distances from a surface at the nodes of a cube around the origin, interpolated linearly between them: fast and
-/// good to about a third of a step, which is what a search for rotations needs.
+/// The distances from a surface at the nodes of a cube around the origin, interpolated linearly between them: fast,
+/// and accurate to about a third of a step, which suffices to search for rotations.
 class Distance_grid {
 public:
   static Distance_grid of(bool in_threads, const Surface_distances& distances, double radius) {
@@ -68,32 +68,32 @@ private:
   std::vector<float> values_;
 };
 
-/// About the angle between two maps in radians: 2 at most for rotations, or for two reflections.
+/// The approximate angle between two maps in radians: at most 2 for two rotations, or for two reflections.
 inline double difference(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) { return (a - b).norm() / std::sqrt(2.0); }
 
-/// A rotation about the origin, or one times -1, with the rms distance of the points that it moves from the surface.
+/// A rotation about the origin, or one times -1, with the rms distance of moved points from the surface.
 struct Rotation_candidate {
   Eigen::Matrix3d matrix;
   double rms;
 };
 
-/// Rotations near all that move a surface onto itself.
+/// Rotations close to all that move a surface onto itself.
 struct Rotation_candidates {
-  std::vector<Rotation_candidate> rotations; ///< in the order of their rms, none nearby another
-  /// All rotations with a smaller rms are near one of these; less than was asked for if there were too many.
+  std::vector<Rotation_candidate> rotations; ///< sorted by rms, none close to another one
+  /// All rotations with a smaller rms are close to one of these. Smaller than requested if there were too many.
   double complete_to = 0;
 };
 
-/// The search of all rotations about the origin, and of those times -1, by branch and bound. The distance from a
-/// surface is 1-Lipschitz, so that the rms distance at the center of a cell of rotations is at most by the radius of
-/// the cell, times the rms distance of points from an axis, above that of any rotation in the cell.
+/// Searches all rotations about the origin, and those times -1, by branch and bound. The distance from a surface is
+/// 1-Lipschitz, so the rms distance at the center of a cell of rotations exceeds that of any rotation in the cell by
+/// at most the radius of the cell times the rms distance of points from an axis.
 class Rotation_search {
 public:
   /// `spread` is the largest rms distance of the points from an axis.
   Rotation_search(bool in_threads, const Distance_grid& grid, std::vector<Eigen::Vector3d> points, double spread)
       : in_threads_(in_threads), grid_(grid), points_(std::move(points)), spread_(spread) {}
 
-  /// Finds rotations near all whose rms may be below `tolerance`.
+  /// Finds rotations close to all whose rms may be below `tolerance`.
   Rotation_candidates run(double tolerance, bool allows_reflections) const {
     std::vector<Cell> cells = first_cells(allows_reflections);
     double half = 1.0 / first_division;
@@ -113,7 +113,7 @@ private:
   static constexpr double smallest_radius = 0.06, least_difference = 0.1;
   static constexpr std::size_t most_candidates = 3000;
 
-  /// A cube in one of the four faces of the cube whose points are quaternions, up to a factor.
+  /// A cube in one of four faces of the hypercube of quaternions up to a factor.
   struct Cell {
     std::array<float, 3> center;
     int face, sign;
@@ -129,7 +129,7 @@ private:
   };
 
   /// The largest angle between the center of a cell with sides of 2 `half` and a rotation in it: twice that between
-  /// their quaternions, which projection onto the sphere does not enlarge.
+  /// their quaternions, which projection onto the sphere does not increase.
   static double radius(double half) { return 2 * half * std::sqrt(3.0); }
 
   static std::vector<Cell> first_cells(bool allows_reflections) {
@@ -160,7 +160,7 @@ private:
     return result;
   }
 
-  /// Computes the rms of cells as far as it is below a bound.
+  /// Computes the rms of cells if it is below a bound.
   void measure(std::vector<Cell>& cells, double bound) const {
     const double largest_sum = bound * bound * double(points_.size());
     parallel_for(
@@ -178,8 +178,8 @@ private:
         256);
   }
 
-  /// Returns the centers of cells, without those near others of less rms. The rms of a rotation in a cell is less than
-  /// at its center by at most the `slack`.
+  /// Returns the centers of cells, without those close to others with a smaller rms. A rotation in a cell has an rms
+  /// smaller than the center by at most `slack`.
   static Rotation_candidates apart(std::vector<Cell> cells, double tolerance, double slack) {
     std::stable_sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.rms < b.rms; });
     Rotation_candidates result{{}, tolerance};
@@ -205,13 +205,13 @@ private:
   double spread_;
 };
 
-/// Maps that are a finite group up to errors, with the numbers of their products.
+/// Maps that are a finite group up to errors, with a table of their products.
 struct Finite_group {
   std::vector<Affine_map_3> maps;
-  std::vector<std::vector<std::size_t>> products; ///< products[i][j] is the number of maps[i] * maps[j]
+  std::vector<std::vector<std::size_t>> products; ///< products[i][j] is the index of maps[i] * maps[j]
 };
 
-/// The number of the map whose matrix is nearest, and how far it is.
+/// The index of the map with the nearest matrix, and the difference.
 struct Nearest_map {
   std::size_t index = 0;
   double difference = std::numeric_limits<double>::infinity();
@@ -224,8 +224,8 @@ inline Nearest_map nearest_map(const std::vector<Affine_map_3>& maps, const Eige
   return best;
 }
 
-/// Returns maps as a group, if the product of any two is near to one of them, and multiplication by each map permutes
-/// them.
+/// Returns maps as a group, if the product of any two is close to one of them, and multiplication by each map
+/// permutes them.
 inline std::optional<Finite_group> as_group(const std::vector<Affine_map_3>& maps, double tolerance) {
   Finite_group group{maps, std::vector(maps.size(), std::vector<std::size_t>(maps.size()))};
   for (std::size_t i = 0; i < maps.size(); ++i) {
@@ -240,9 +240,9 @@ inline std::optional<Finite_group> as_group(const std::vector<Affine_map_3>& map
   return group;
 }
 
-/// Changes the maps of a group slightly, so that their products are right up to rounding: g becomes the mean of
-/// (g h) h^-1 over all h, some times, and all maps have the fixed point that is the mean image of the origin. Returns
-/// whether they are right.
+/// Changes the maps of a group slightly, so that their products are exact up to rounding: iterates replacing g by
+/// the mean of (g h) h^-1 over all h, and moves the fixed point of all maps to the mean image of the origin. Returns
+/// whether it succeeded.
 inline bool make_exact(Finite_group& group) {
   constexpr int most_steps = 12;
   auto& maps = group.maps;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The distances from a surface given as a mesh or a function, and samples of the surface of a function.
+// The distances from a surface given as a mesh or a function, and samples of the zero set of a function.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_SURFACE_DISTANCES_H
 #define EQUIAFFINE_SRC_REGISTRATION_SURFACE_DISTANCES_H
 
@@ -26,10 +26,10 @@
 
 namespace equiaffine::internal {
 
-/// A function in other coordinates, on its box, which is a parallelepiped there.
+/// A function in other coordinates, restricted to its box, which is a parallelepiped there.
 class Mapped_function_3 {
 public:
-  /// `map` goes from the coordinates of the function to the other ones.
+  /// `map` goes from the coordinates of the function to the new ones.
   Mapped_function_3(Any_function_3 function, const Affine_map_3& map)
       : function_(std::move(function)), map_(map), inverse_(map.inverse()), box_(function_.bbox()) {
     for (int a = 0; a < 3; ++a) {
@@ -41,7 +41,7 @@ public:
   const Affine_map_3& map() const { return map_; }
   Eigen::Vector3d center() const { return map_(lower_ + sides_ / 2); }
 
-  /// The radius of the ball around the center that holds the box.
+  /// The radius of the ball around the center that contains the box.
   double radius() const {
     double result = 0;
     for (int corner = 0; corner < 8; ++corner)
@@ -52,7 +52,7 @@ public:
     return result;
   }
 
-  /// The value at parts, from 0 to 1, of the sides of the box.
+  /// The value at relative coordinates, from 0 to 1, in the box.
   double value_in_box(const Eigen::Vector3d& parts) const {
     return function_.value(to_CGAL(lower_ + sides_.cwiseProduct(parts)));
   }
@@ -66,7 +66,7 @@ public:
     return result;
   }
 
-  /// The part of a line that is in the box: its first and its last parameter.
+  /// The first and the last parameter of a line in the box.
   std::pair<double, double> part_in_box(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
     const Eigen::Vector3d from = inverse_(origin) - lower_, along = inverse_.matrix * direction;
     double first = -std::numeric_limits<double>::infinity(), last = -first;
@@ -78,8 +78,8 @@ public:
     return {first, last};
   }
 
-  /// The value, and the gradient in the coordinates of this function. They are NaN outside of the box. Where two parts
-  /// of a maximum are the same, the expansion of it is not finite, and differences take its place.
+  /// The value, and the gradient in the new coordinates; NaN outside of the box. If two arguments of a maximum are
+  /// equal, its expansion is not finite, and finite differences are used.
   std::pair<double, Eigen::Vector3d> first_order(const Eigen::Vector3d& p) const {
     const Eigen::Vector3d q = inverse_(p);
     if (!contains(q)) {
@@ -94,7 +94,7 @@ public:
 
   Eigen::Vector3d gradient(const Eigen::Vector3d& p) const { return first_order(p).second; }
 
-  /// A zero on a segment at whose ends the signs differ, or nothing where there is a pole or a jump.
+  /// A zero on a segment whose ends have different signs, or nothing if there is a pole or a jump.
   std::optional<Eigen::Vector3d> zero_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
     const Point_3 p = to_CGAL(inverse_(a)), q = to_CGAL(inverse_(b));
     const double f = function_.value(p), g = function_.value(q);
@@ -130,13 +130,13 @@ private:
   Eigen::Vector3d lower_, sides_;
 };
 
-/// The distance of any point from a surface, and the direction in which it grows.
+/// The distance of a point from a surface, and the direction in which it increases.
 class Surface_distances {
 public:
   virtual ~Surface_distances() = default;
   virtual Signed_distance_3 operator()(const Eigen::Vector3d& p) const = 0;
 
-  /// About the distance, fast, from far away, too.
+  /// An approximate distance, fast, also from far away.
   double about(const Eigen::Vector3d& p) const {
     return std::sqrt(nearest_triangle(tree_, to_CGAL(p)).squared_distance);
   }
@@ -146,7 +146,8 @@ protected:
 
   const Triangle_tree& tree() const { return tree_; }
 
-  /// The distance between a point p and the nearest one of a surface, whose normal is the direction if p is on it.
+  /// The distance between a point p and the nearest point of a surface. The direction is the normal if p is on the
+  /// surface.
   static Signed_distance_3 distance_between(const Eigen::Vector3d& p, const Eigen::Vector3d& nearest,
                                             const Eigen::Vector3d& normal) {
     const Eigen::Vector3d way = p - nearest;
@@ -156,10 +157,9 @@ protected:
   }
 
 private:
-  Triangle_tree tree_; ///< of the triangles of a mesh, or of points as triangles
+  Triangle_tree tree_; ///< triangles of a mesh, or points as triangles
 };
 
-/// The distances from the triangles of a mesh.
 class Mesh_distances final : public Surface_distances {
 public:
   explicit Mesh_distances(const Triangles_3& mesh) : Surface_distances(triangles_with_area(mesh)) {}
@@ -170,8 +170,8 @@ public:
   }
 };
 
-/// The distances from the zero set of a function: those from its samples, which Newton's steps along the gradient make
-/// exact near the surface.
+/// The distances from the zero set of a function. Those from its samples are made exact near the surface by Newton
+/// steps along the gradient.
 class Function_distances final : public Surface_distances {
 public:
   Function_distances(const Mapped_function_3& function, const Area_samples_3& samples)
@@ -193,7 +193,8 @@ private:
     bool has_converged;
   };
 
-  /// Newton's steps, none longer than the way to the nearest sample. The last one is below 1/100 of the whole way.
+  /// Newton steps, none longer than twice the distance to the nearest sample. The last one is below 1/100 of the
+  /// total.
   Zero nearest_zero(const Eigen::Vector3d& p, double bound) const {
     constexpr int most_steps = 8;
     Zero zero = {p, Eigen::Vector3d::UnitZ(), false};
@@ -228,16 +229,16 @@ struct Ball_3 {
 /// The signs of a function on the faces of its box.
 struct Signs_on_box {
   bool has_positive = false, has_negative = false, has_zero = false;
-  bool has_change = false; ///< between points that are neighbors: a function may be undefined between others
+  bool has_change = false; ///< between neighboring points, because a function may be undefined between others
 
-  /// Whether the zero set meets the box. It may do so along edges, on whose faces the sign does not change.
+  /// Whether the zero set intersects the box. It may do so along edges, where no sign changes within a face.
   bool are_cut() const { return has_change || (has_zero && has_positive && has_negative); }
 };
 
 inline Signs_on_box signs_on_box(const Mapped_function_3& function) {
   constexpr int steps = 48;
   Signs_on_box signs;
-  std::array<double, steps + 1> row; // for each j the last value that is not zero
+  std::array<double, steps + 1> row; // per j, the last nonzero value
   for (int axis = 0; axis < 3; ++axis)
     for (int side = 0; side < 2; ++side) {
       row.fill(0);
@@ -259,20 +260,20 @@ inline Signs_on_box signs_on_box(const Mapped_function_3& function) {
   return signs;
 }
 
-/// The points in which a line meets a surface, and its segments inside of the solid that this bounds.
+/// The intersections of a line with a surface, and the segments of the line inside the solid it bounds.
 struct Line_of_samples {
   std::vector<Eigen::Vector3d> points, normals;
   std::vector<std::array<Eigen::Vector3d, 2>> inside;
 };
 
-/// Random lines meet a surface uniformly in its area (M. Crofton; see L. Santalo, Integral Geometry and Geometric
-/// Probability, 1976, 14.5). The lines are those through a ball.
+/// Random lines intersect a surface uniformly in its area (M. Crofton; see L. Santalo, Integral Geometry and
+/// Geometric Probability, 1976, 14.5). The lines are those through a ball.
 class Sampling_lines {
 public:
   Sampling_lines(const Mapped_function_3& function, bool is_inside_positive, const Ball_3& ball)
       : function_(function), inside_(is_inside_positive ? 1 : -1), ball_(ball) {}
 
-  /// The area of a surface that lines meet `hits` times.
+  /// The area of a surface with `hits` intersections.
   double area(double hits, double lines) const {
     return 2 * std::numbers::pi * ball_.radius * ball_.radius * hits / lines;
   }
@@ -321,8 +322,8 @@ private:
   Ball_3 ball_;
 };
 
-/// Samples the zero set of a function by lines through a ball, until there are `count` points, or few after very many
-/// lines.
+/// Samples the zero set of a function by lines through a ball, until there are `count` points, or fewer after very
+/// many lines.
 inline Area_samples_3 function_samples(bool in_threads, const Mapped_function_3& function, const Ball_3& ball,
                                        std::size_t count) {
   constexpr std::size_t lines_at_once = 4000, most_lines = 1000000;
@@ -353,8 +354,8 @@ inline Area_samples_3 function_samples(bool in_threads, const Mapped_function_3&
   return result;
 }
 
-/// Samples the zero set of a function twice: a ball around the box of the function may be much larger than the surface,
-/// and one around the first samples is not.
+/// Samples the zero set of a function twice: the ball around the box of the function may be much larger than the
+/// surface, unlike the ball around the first samples.
 inline Area_samples_3 function_samples(bool in_threads, const Mapped_function_3& function, std::size_t count) {
   constexpr double margin = 1.25;
   const Ball_3 all = {function.center(), function.radius()};

@@ -24,14 +24,15 @@ namespace equiaffine::internal {
 
 /// How far a map moves points of a surface off it.
 struct Checked_map {
-  /// Distances of images in the box from the surface, in the unit of space; infinite where the function is undefined.
+  /// Distances of images in the box from the surface, in the unit of space; infinite where the function is
+  /// undefined.
   double rms = 0, greatest = 0;
-  double inside = 0;                     ///< the part of the images that is in the box
+  double inside = 0;                     ///< fraction of the images in the box
   bool is_exact = false;                 ///< whether each of these is on the surface up to rounding
-  std::vector<Eigen::Vector3d> off = {}; ///< images that are not, up to some number
+  std::vector<Eigen::Vector3d> off = {}; ///< images off the surface, up to a maximum number
 };
 
-/// Tries whether maps move the zero set of a function onto itself, by points on all of it in its box.
+/// Checks whether maps move the zero set of a function onto itself, by points on all of it in its box.
 class Symmetry_check {
 public:
   static Symmetry_check of(bool in_threads, const Any_function_3& function) {
@@ -51,15 +52,15 @@ public:
 
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
   double size() const { return size_; }
-  double spacing() const { return spacing_; } ///< a part of the size
-  bool is_cut() const { return is_cut_; }     ///< whether the surface goes on beyond the box
+  double spacing() const { return spacing_; } ///< relative to the size
+  bool is_cut() const { return is_cut_; }     ///< whether the surface continues beyond the box
 
   /// The center of the box.
   Eigen::Vector3d center() const {
     return {(box_.min(0) + box_.max(0)) / 2, (box_.min(1) + box_.max(1)) / 2, (box_.min(2) + box_.max(2)) / 2};
   }
 
-  /// Checks a map by all points, or by some of them.
+  /// Checks a map with the first `count` points.
   Checked_map check(bool in_threads, const Affine_map_3& map,
                     std::size_t count = std::numeric_limits<std::size_t>::max()) const {
     const std::size_t points = std::min(count, points_.size());
@@ -93,12 +94,12 @@ public:
     return result;
   }
 
-  /// Checks the flows of infinitesimal maps by motions of finite lengths. Velocities do not show jumps of a
+  /// Checks the flows of infinitesimal maps by motions of finite lengths. Velocities do not detect jumps of a
   /// function, nor places where it is undefined.
   Checked_map check_flows(bool in_threads, const std::vector<Infinitesimal_map_3>& velocities) const {
     Checked_map result = {.is_exact = true};
     for (const Infinitesimal_map_3& velocity : velocities) {
-      double greatest = velocity.matrix.norm() * size_; // those of a plane may not move it at all
+      double greatest = velocity.matrix.norm() * size_; // the matrix of a translation is zero, so velocities count, too
       for (const Eigen::Vector3d& p : points_)
         greatest = std::max(greatest, (velocity.matrix * p + velocity.translation).norm());
       for (const double length : {-1.1, -0.31, 0.31, 1.1}) {
@@ -113,11 +114,11 @@ public:
   }
 
 private:
-  static constexpr double least_limit = 1e-11; ///< a part of the size
+  static constexpr double least_limit = 1e-11; ///< relative to the size
 
   explicit Symmetry_check(const Any_function_3& function) : function_(function), box_(function.bbox()) {}
 
-  /// The point, moved into the box if it is off by rounding.
+  /// The point, moved into the box if it is outside by rounding.
   Eigen::Vector3d in_box(Eigen::Vector3d p) const {
     for (int a = 0; a < 3; ++a) {
       const double rounding = 1e-10 * (box_.max(a) - box_.min(a));
@@ -127,7 +128,7 @@ private:
     return p;
   }
 
-  /// Whether there is a zero within a distance along an axis, which needs no gradient.
+  /// Whether there is a zero within a distance along an axis; requires no gradient.
   bool changes_sign(const Eigen::Vector3d& p, double distance) const {
     const auto value = [&](const Eigen::Vector3d& q) { return function_.first_order(in_box(q)).value(); };
     for (int a = 0; a < 3; ++a) {
@@ -138,7 +139,7 @@ private:
     return false;
   }
 
-  /// Bounds the rounding error of the distance at a point of the surface.
+  /// A bound on the rounding error of the distance at a point of the surface.
   double error_at(const Eigen::Vector3d& p) const {
     constexpr double factor = 32;
     const auto [distance, normal] = function_.distance(p);

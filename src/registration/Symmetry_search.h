@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Searches for the finite group of symmetries of a surface by affine frames, and checks the group that is found.
+// Searches for the finite group of symmetries of a surface by affine frames, and checks the group.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_SYMMETRY_SEARCH_H
 #define EQUIAFFINE_SRC_REGISTRATION_SYMMETRY_SEARCH_H
 
@@ -26,17 +26,17 @@
 
 namespace equiaffine::internal {
 
-/// How far symmetries may move points from a surface without a given tolerance, parts of its size: splines and fits
-/// give the surface to within their errors only.
+/// The default tolerances of distances of moved points, relative to the size. Splines and fits represent the surface
+/// only within their errors.
 struct Default_tolerances {
   static constexpr double function = 1e-8, spline = 1e-5, fit = 1e-3;
 };
 
-/// The search for the finite group of maps that move a surface onto itself. A few generic points are matched with all
-/// points of the surface that may be their images; products of the symmetries that are found complete the group.
+/// Searches for the finite group of maps that move a surface onto itself. A few generic points are matched with all
+/// possible images; products of the symmetries complete the group.
 class Symmetry_search {
 public:
-  /// A symmetry moves no point from the surface by more than `tolerance` times the size of the surface.
+  /// A symmetry moves no point off the surface by more than `tolerance` times the size of the surface.
   Symmetry_search(bool in_threads, const Framed_surface_3& surface, Map_kind kind, double tolerance)
       : in_threads_(in_threads), surface_(surface), kind_(kind), tolerance_(tolerance) {}
 
@@ -59,10 +59,10 @@ public:
     return group_;
   }
 
-  /// The number of points with good frames that run() matched with all their possible images.
+  /// The number of points with good frames that run() matched with all possible images.
   std::size_t good_points_matched() const { return good_points_matched_; }
 
-  /// The number of those in the inner half of the surface, whose images are seldom out of the box.
+  /// The number of those in the inner half of the surface, whose images are rarely outside of the box.
   std::size_t good_inner_points_matched() const { return good_inner_points_matched_; }
 
   /// The distances of moved points from the surface.
@@ -82,12 +82,12 @@ public:
 private:
   static constexpr std::size_t inner_points = 4, most_neighbors = 3000, most_images = 600, most_points = 3000,
                                largest_group = 1000;
-  static constexpr double least_difference = 0.01; ///< between maps, a part of their norm and of the size
+  static constexpr double least_difference = 0.01; ///< between maps, relative to their norm and to the size
 
-  /// Returns points with different invariants, since images of each other have the same images: some of the inner half
-  /// of the surface, then some of all. A symmetry keeps the distance from the center in coordinates where the points
-  /// have covariance 1, so that it seldom moves a point of the inner half out of the box. Points are chosen that are
-  /// found from the points around them, as their images will have to be.
+  /// Returns points with different invariants, because images of each other have the same images: first some of the
+  /// inner half of the surface, then some of all. A symmetry preserves the distance from the center in coordinates
+  /// in which the points have covariance 1, so it rarely moves a point of the inner half out of the box. Points are
+  /// chosen such that the search finds them from the points around them, as is required for their images.
   std::vector<std::size_t> points_to_match() {
     const Whitening whitening(surface_.probes);
     std::vector<double> distances;
@@ -114,7 +114,7 @@ private:
     }
   }
 
-  /// Whether the search for a counterpart leads to the point from most of its neighbors.
+  /// Whether the search for a counterpart finds the point from most of its neighbors.
   bool is_found_from_neighbors(std::size_t i) const {
     constexpr std::size_t neighbors = 6, fewest = 4;
     const Eigen::Vector3d& p = surface_.points[i].point;
@@ -127,7 +127,7 @@ private:
     return found >= fewest;
   }
 
-  /// Adds the symmetries that move the point to another one with its invariants.
+  /// Adds the symmetries that move the point to another one with the same invariants.
   void match(std::size_t point) {
     const auto pairs = apart(pairs_of_point(surface_, surface_, point, kind_, {most_neighbors, most_neighbors, 0.5}));
     std::vector<Counterpart> found(pairs.size());
@@ -145,8 +145,8 @@ private:
     }
   }
 
-  /// Returns pairs whose points on the target are some spacings apart, those of the least cost first: otherwise all
-  /// of them could be around one image.
+  /// Returns pairs whose target points are some spacings apart, lowest cost first; otherwise all of them could be
+  /// around one image.
   std::vector<Candidate_pair> apart(const std::vector<Candidate_pair>& pairs) const {
     std::vector<Candidate_pair> chosen;
     const auto position = [&](const Candidate_pair& pair) { return surface_.points[pair.target].point; };
@@ -196,17 +196,17 @@ inline Affine_symmetry_3<Kernel_of_searches> symmetry(const Affine_map_3& map, d
   return {map.to_CGAL<Kernel_of_searches::Aff_transformation_3>(), rms, greatest};
 }
 
-/// Maps are tried by the first of these numbers of points, and a group by all points.
+/// Maps are tested with the first few points, and a group with all points.
 constexpr std::size_t few_points = 3000, most_points_of_check = std::numeric_limits<std::size_t>::max();
 
-/// A map that was checked.
 struct Checked_symmetry {
   Affine_map_3 map;
   Checked_map check;
 };
 
-/// Returns the group that maps generate, if each of its elements `holds`; nothing if one does not, or there are too
-/// many. Sums of errors are made right in coordinates in which the points of the surface have covariance 1.
+/// Returns the group generated by maps, if `holds` is true for each of its elements; nothing if it is false for one,
+/// or there are too many. Accumulated errors are removed in coordinates in which the points of the surface have
+/// covariance 1.
 template <class Holds>
 std::optional<std::vector<Checked_symmetry>> group_of(bool in_threads, const std::vector<Affine_map_3>& generators,
                                                       const Symmetry_check& check, const Holds& holds) {
@@ -253,12 +253,12 @@ inline Symmetry_level_3<Kernel_of_searches> level_of(const std::vector<Checked_s
   return level;
 }
 
-/// Up to this tolerance, the frames of a smooth surface decide alone: they take a hundredth of the time of a search of
-/// all rotations, and say nothing of what holds approximately.
+/// Up to this tolerance, the frames of a smooth surface alone decide: they take a hundredth of the time of a search
+/// of all rotations, but do not find approximate symmetries.
 constexpr double greatest_tolerance_of_frames = 1e-6;
 
-/// Returns the group of the maps that hold, as far as the box shows; of those that keep its center if they are none
-/// since the surface goes on beyond it, such as translations.
+/// Returns the group of the maps that hold, as far as the box shows. If they do not form a group because the surface
+/// continues beyond the box, as with translations, returns the group of those that fix the center of the box.
 template <class Holds>
 std::optional<std::vector<Checked_symmetry>> group_that_holds(bool in_threads, const std::vector<Affine_map_3>& maps,
                                                               const Symmetry_check& check, const Holds& holds) {
@@ -278,14 +278,14 @@ std::optional<std::vector<Checked_symmetry>> group_that_holds(bool in_threads, c
   return group_of(in_threads, kept, check, holds);
 }
 
-/// The groups that affine frames of points of a smooth surface give: that of the maps which hold to rounding at every
+/// The groups from affine frames of points of a smooth surface: that of the maps that hold to rounding at every
 /// point, and a larger one to within the tolerance.
 inline Affine_symmetries_3<Kernel_of_searches> symmetries_by_exact_frames(bool in_threads,
                                                                           const Framed_surface_3& surface,
                                                                           const Symmetry_check& check,
                                                                           const Symmetry_options& options) {
   constexpr std::size_t fewest_points = 4, fewest_inner_points = 2;
-  constexpr double least_inside = 0.05; // of the images of points, in the box
+  constexpr double least_inside = 0.05; // of the images of points in the box
   const double tolerance = options.tolerance.value_or(Default_tolerances::function);
   Symmetry_search search(in_threads, surface, options.kind, std::max(tolerance, greatest_tolerance_of_frames));
   std::vector<Affine_map_3> maps = search.run();
@@ -307,7 +307,7 @@ inline Affine_symmetries_3<Kernel_of_searches> symmetries_by_exact_frames(bool i
   }
   const auto group = group_that_holds(in_threads, maps, check, is_exact);
   if (!group) {
-    result.reason = "maps that move the surface onto itself to rounding are no group";
+    result.reason = "the maps that move the surface onto itself to rounding do not form a group";
     return result;
   }
   if (check.is_cut())
@@ -326,7 +326,7 @@ inline Affine_symmetries_3<Kernel_of_searches> symmetries_by_exact_frames(bool i
   return result;
 }
 
-/// The first points, and others after them, up to a number.
+/// Appends other points up to a total number.
 inline std::vector<Eigen::Vector3d> filled_up(std::vector<Eigen::Vector3d> points,
                                               const std::vector<Eigen::Vector3d>& others, std::size_t count) {
   if (points.size() < count)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pairs of points of two surfaces that may be images of each other, from which the search for maps starts.
+// Pairs of points of two surfaces that may correspond, as starting points of the search for maps.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_CANDIDATE_PAIRS_H
 #define EQUIAFFINE_SRC_REGISTRATION_CANDIDATE_PAIRS_H
 
@@ -22,18 +22,18 @@
 
 namespace equiaffine::internal {
 
-// Chooses the points of a surface that are tried first: those whose frame is good, whose invariants change quickly
-// along the surface and are rare on it, agree with those of their neighbors, and are not in doubt.
+// Chooses the points of a surface to try first: those whose frame is good, and whose invariants change quickly along
+// the surface, are rare on it, agree with those of their neighbors, and are certain.
 
-/// How much two gradients differ: 0 if they are equal, 1 at most.
+/// The difference of two gradients: 0 if they are equal, at most 1.
 inline double mismatch(const Gradient_of_invariants& a, const Gradient_of_invariants& b) {
   return (a - b).norm() / (a.norm() + b.norm() + 1e-300);
 }
 
-/// The length of the longer one of the tangent vectors of the basis.
+/// The length of the longer tangent vector of the basis.
 inline double tangent_length(const Framed_point_3& p) { return p.basis.leftCols<2>().colwise().norm().maxCoeff(); }
 
-/// By how much the invariants change at least over a spacing of the points.
+/// The smallest change of the invariants over a spacing of the points.
 inline double steepness(const Framed_surface_3& surface, const Framed_point_3& p, Map_kind kind) {
   const Gradient_of_invariants gradient = kept_gradient(p, kind);
   const Eigen::Matrix2d squares = gradient.transpose() * gradient;
@@ -42,8 +42,8 @@ inline double steepness(const Framed_surface_3& surface, const Framed_point_3& p
   return std::sqrt(std::max(0.0, least)) * surface.spacing / tangent_length(p);
 }
 
-/// The distance to the eighth nearest of all invariants, beside the change over two spacings: less than 1 if other
-/// parts of the surface have these invariants, too, and 0 if the points are as symmetric as the surface.
+/// The distance to the eighth nearest of all invariants, relative to the change over two spacings: less than 1 if
+/// other parts of the surface have these invariants, too, and 0 if the points have the symmetries of the surface.
 inline double rarity(const Framed_surface_3& surface, const Framed_point_3& p, Map_kind kind) {
   const auto nearest = surface.tree_of(p).neighbors(kept_invariants(p, kind), 8);
   const double change = kept_gradient(p, kind).norm() * 2 * surface.spacing / tangent_length(p);
@@ -59,10 +59,10 @@ inline double disagreement(const Framed_surface_3& surface, const Framed_point_3
     const bool is_alike = q.has_frame() && q.is_elliptic == p.is_elliptic;
     sum += is_alike ? mismatch(kept_gradient(p, kind), kept_gradient(q, kind)) : 1;
   }
-  return sum / neighbors; // the point itself adds nothing
+  return sum / neighbors; // the mismatch of the point itself is 0
 }
 
-/// The weights of all points, 0 for one that is not to be matched.
+/// The weights of all points, 0 for those that should not be matched.
 inline std::vector<double> weights_of_points(bool in_threads, const Framed_surface_3& surface, Map_kind kind,
                                              const Frame_thresholds& thresholds) {
   std::vector<double> weights(surface.points.size(), 0), slopes(surface.points.size(), 0);
@@ -87,8 +87,8 @@ inline std::vector<double> weights_of_points(bool in_threads, const Framed_surfa
   return weights;
 }
 
-/// Returns the best of each of up to `count` random groups of points, the best first, so that they are spread over the
-/// surface.
+/// Returns the best of each of up to `count` random groups of points, the best first, so that they are spread over
+/// the surface.
 inline std::vector<std::size_t> points_to_try(bool in_threads, const Framed_surface_3& surface, Map_kind kind,
                                               std::size_t count, const Frame_thresholds& thresholds = {}) {
   const std::vector<double> weights = weights_of_points(in_threads, surface, kind, thresholds);
@@ -105,21 +105,21 @@ inline std::vector<std::size_t> points_to_try(bool in_threads, const Framed_surf
   return best;
 }
 
-/// A point of the source and one of the target near which its counterpart may be.
+/// A point of the source, and one of the target near which its counterpart may be.
 struct Candidate_pair {
   std::size_t source, target;
   double cost;
 };
 
-/// The step along the tangent vectors of a point after which its invariants differ least from the wanted ones.
+/// The step along the tangent vectors of a point after which its invariants are closest to the desired ones.
 inline Eigen::Vector2d step_to(const Gradient_of_invariants& gradient, const Invariants& difference, double damping) {
   Eigen::Matrix2d normal = gradient.transpose() * gradient;
   normal.diagonal().array() += damping * normal.trace() + std::numeric_limits<double>::min();
   return normal.inverse() * (gradient.transpose() * difference);
 }
 
-/// The cost of a pair, or infinity if the counterpart would be too far from the point of the target, or
-/// gradients differ too much.
+/// The cost of a pair, or infinity if the counterpart would be too far from the point of the target, or gradients
+/// differ too much.
 inline double cost_of_pair(const Framed_surface_3& target, const Framed_point_3& p, const Framed_point_3& q,
                            Map_kind kind, double greatest_mismatch, const Frame_thresholds& thresholds) {
   const Gradient_of_invariants gradient = kept_gradient(q, kind);
@@ -148,7 +148,7 @@ inline std::vector<Candidate_pair> pairs_of_point(const Framed_surface_3& source
   return pairs;
 }
 
-/// Returns the candidates for the points of the source, those of the least cost first.
+/// Returns the candidates for the points of the source, lowest cost first.
 inline std::vector<Candidate_pair> candidate_pairs(bool in_threads, const Framed_surface_3& source,
                                                    const Framed_surface_3& target, std::span<const std::size_t> points,
                                                    Map_kind kind, const Candidate_limits& limits,
@@ -163,17 +163,17 @@ inline std::vector<Candidate_pair> candidate_pairs(bool in_threads, const Framed
   return pairs;
 }
 
-/// A point of the source, and the point of the target that has its invariants as nearly as one nearby can.
+/// A point of the source, and the nearby point of the target with the most similar invariants.
 struct Counterpart {
   std::size_t source = 0;
   Framed_point_3 target;
   double residual = 0; ///< of the invariants
-  double cost = 0;     ///< 0 for a perfect pair, and 1 or 2 for an accidental one
+  double cost = 0;     ///< 0 for a perfect pair, and 1 or 2 for a coincidence
 };
 
-/// Finds the counterpart by up to 6 steps of Gauss and Newton along the target from the candidate on, with 5 expansions
-/// each: the best point on the way, since steps from wrong structure may lead astray. They end where the target has no
-/// frame, and away from the candidate.
+/// Finds the counterpart by up to 6 Gauss-Newton steps along the target from the candidate, with 5 expansions each.
+/// Returns the best point on the way, because wrong structure may misdirect steps. The search stops where the target
+/// has no frame, or too far from the candidate.
 inline Counterpart find_counterpart(const Framed_surface_3& source, const Framed_surface_3& target,
                                     const Candidate_pair& pair, Map_kind kind,
                                     const Frame_thresholds& thresholds = {}) {

@@ -13,7 +13,7 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// The root of the mean squared distance of the samples in contact.
+/// The root mean square distance of the samples in contact.
 double rms_of_contacts(const Mapped_samples& samples) {
   double sum = 0, count = 0;
   for (const auto& side : samples)
@@ -29,7 +29,7 @@ Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 
   if (source.triangles.empty() || target.triangles.empty()) return result;
   const Moments_3 area = area_moments(target);
   if (!(area.measure > 0) || !(area_moments(source).measure > 0)) return result;
-  const double rounding = coordinate_rounding(target.points); // of the source, too, which a map has moved
+  const double rounding = coordinate_rounding(target.points); // the same for the source, which a map has moved
   result.are_exact_solids =
       has_group_of_corners(false, source, rounding) && has_group_of_corners(false, target, rounding);
   const Affine_map_3 map = centering_map(area);

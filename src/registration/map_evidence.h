@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Decides whether a map moves a part of one surface onto the other, a contrario: how many maps that are as good would
-// be expected by chance (Desolneux, Moisan, Morel: From Gestalt theory to image analysis, 2008)?
+// Decides whether a map moves a part of one surface onto the other, a contrario: by the number of equally good maps
+// expected by chance (Desolneux, Moisan, Morel: From Gestalt theory to image analysis, 2008).
 #ifndef EQUIAFFINE_SRC_REGISTRATION_MAP_EVIDENCE_H
 #define EQUIAFFINE_SRC_REGISTRATION_MAP_EVIDENCE_H
 
@@ -16,8 +16,8 @@
 
 namespace equiaffine::internal {
 
-/// The part of the points in the domain of the other surface that lie on it to within a distance; 0 if most points are
-/// outside of the domain.
+/// The fraction of the points in the domain of the other surface that lie on it to within a distance; 0 if most
+/// points are outside of the domain.
 inline double part_on_surface(const std::vector<Mapped_point>& points, double distance) {
   std::size_t inside = 0, on_surface = 0;
   for (const Mapped_point& p : points) {
@@ -27,20 +27,20 @@ inline double part_on_surface(const std::vector<Mapped_point>& points, double di
   return 2 * inside > points.size() ? double(on_surface) / double(inside) : 0;
 }
 
-/// So much of a surface, at least, has to lie on another one that is the same. The rest may be points that are not on
-/// the zero set, or where the function is not smooth.
+/// The minimum fraction of a surface that must lie on an equal one. The rest may be points that are not on the zero
+/// set, or where the function is not smooth.
 constexpr double part_of_same_surface = 0.98;
 
-/// What the distances between two surfaces say of a map.
+/// The evidence of the distances between two surfaces for a map.
 struct Map_evidence {
   double log10_false_alarms = 0;
-  double log10_by_volume = 0;      ///< of the first of the two chances alone: the less, the better the map
+  double log10_by_volume = 0;      ///< by the volume model alone: the lower, the better the map
   double tolerance = 1;            ///< in the unit of distances: the one that makes the map least probable
-  std::array<double, 2> inliers{}; ///< parts of the probes of the source, and of the target, within the tolerance
+  std::array<double, 2> inliers{}; ///< fractions of the probes of the source, and of the target, within the tolerance
   double rms = std::numeric_limits<double>::infinity(); ///< of their distances, a length
 };
 
-/// Chernoff's bound of the logarithm, to base 10, of the probability of `hits` or more in `trials` with probability p.
+/// Chernoff bound on log10 of the probability of `hits` or more successes in `trials` with probability p.
 inline double log10_tail(double hits, double trials, double p) {
   if (!(trials > 0) || !(hits > p * trials)) return 0;
   const double x = std::min(hits / trials, 1.0);
@@ -48,13 +48,13 @@ inline double log10_tail(double hits, double trials, double p) {
   return -trials * (x * std::log(x / p) + miss) * std::numbers::log10e;
 }
 
-/// The least number of probes that a map can be judged by, beside its own parameters.
+/// The smallest number of probes to judge a map, in addition to its parameters.
 constexpr std::size_t fewest_probes = 5;
 
 /// The distances of probes in the domain, in increasing order.
 struct Sorted_distances {
   std::vector<double> distances;
-  std::size_t probes; ///< with those outside of the domain
+  std::size_t probes; ///< including those outside of the domain
 
   Sorted_distances(const std::vector<Mapped_point>& points, double unit) : probes(points.size()) {
     for (const Mapped_point& p : points)
@@ -67,24 +67,25 @@ struct Sorted_distances {
   }
 };
 
-/// The tolerances that are tried: two per factor of 10, down to roundings.
+/// The tolerances to try: two per factor of 10, down to rounding.
 constexpr int most_tolerances = 25;
 inline double tolerance_of_number(double greatest, int i) { return greatest * std::pow(10, -0.5 * i); }
 
-/// How a map is judged.
+/// How to judge a map.
 struct Judgement {
-  double greatest_tolerance; ///< in the unit of distances: points that are nearer may lie on the other surface
-  double min_overlap;        ///< the part of the probes of one surface, at least, that is to lie on the other
-  int parameters = 0;        ///< of the map, which can bring as many points to the other surface
-  double tests = 1;          ///< the number of maps that were tried
+  double greatest_tolerance; ///< in the unit of distances: closer points may lie on the other surface
+  double min_overlap;        ///< minimum fraction of the probes of one surface that must lie on the other
+  int parameters = 0;        ///< of the map, which can move as many points to the other surface by itself
+  double tests = 1;          ///< number of maps that were tried
   std::size_t probes = most_probes;
-  bool are_exact = false; ///< whether points on both surfaces are on them up to rounding, as those of formulas
+  bool are_exact = false; ///< whether points are on both surfaces up to rounding, as for formulas
 };
 
-/// Two ways how chance could bring points near to a surface: they lie anywhere in the volume, or on a surface that
-/// touches the other one. Where two surfaces have contact of order n the distance grows with the power n + 1, and the
-/// part of the points within a tenth of a distance is at most 10^(-2/(n + 1)). The order is 4 for surfaces in general.
-/// Flat caps, as of x^6 + y^6 + z^6 = 1, have more: of formulas only roundings are no such contact.
+/// Two models of how chance can move points close to a surface: they lie anywhere in the volume, or on a surface
+/// that touches the other one. If two surfaces have contact of order n, the distance grows with the power n + 1, and
+/// the fraction of the points within a tenth of a distance is at most 10^(-2/(n + 1)). The order is 4 for surfaces
+/// in general, and higher for flat caps, as of x^6 + y^6 + z^6 = 1; for formulas only rounding rules out such a
+/// contact.
 inline void judge_one_way(const Sorted_distances& sorted, double chance, const Judgement& how, Map_evidence& evidence) {
   constexpr double rounding = 1e-9;
   double contact = 0, volume = 0, tolerance = 1;
@@ -108,9 +109,9 @@ inline void judge_one_way(const Sorted_distances& sorted, double chance, const J
   }
 }
 
-/// Judges a map by the distances of moved points and of points beside the moved surface, in a unit; one of them is
-/// enough, since either surface may be a part of the other, or stand among other things. The chances are those that a
-/// point is near to the target, and to the source, see chance_of_nearness.
+/// Judges a map by the distances of moved points, and of points near the moved surface, in a unit. One of them is
+/// enough, because either surface may be a part of the other, or be surrounded by clutter. `chances` are the
+/// probabilities that a point is close to the target, and to the source, see chance_of_nearness.
 inline Map_evidence evidence_of_distances(const std::vector<Mapped_point>& moved,
                                           const std::vector<Mapped_point>& fixed, double unit,
                                           const std::array<double, 2>& chances, const Judgement& how) {
@@ -120,7 +121,7 @@ inline Map_evidence evidence_of_distances(const std::vector<Mapped_point>& moved
   const double more = std::log10(2 * most_tolerances * how.tests);
   evidence.log10_false_alarms = std::min(0.0, evidence.log10_false_alarms + more);
   evidence.log10_by_volume = std::min(0.0, evidence.log10_by_volume + more);
-  constexpr double rounding = 2e-6; // of coordinates with six digits: points that are nearer lie on the other surface
+  constexpr double rounding = 2e-6; // of coordinates with six digits: closer points lie on the other surface
   double sum = 0, count = 0;
   for (std::size_t way = 0; way < 2; ++way) {
     const double hits = sorted[way].within(std::max(evidence.tolerance, rounding));

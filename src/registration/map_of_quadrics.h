@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One of the many maps between two quadrics of the same kind, which have no affine frames: each is moved to its normal
-// form, z1^2 + z2^2 + z3^2 = 1 and so on with other signs, or +-z1^2 +- z2^2 = z3.
+// One of the many maps between two quadrics of the same kind, which have no affine frames. Each is moved to its
+// normal form, z1^2 + z2^2 + z3^2 = 1 and so on with other signs, or +-z1^2 +- z2^2 = z3.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_MAP_OF_QUADRICS_H
 #define EQUIAFFINE_SRC_REGISTRATION_MAP_OF_QUADRICS_H
 
@@ -31,11 +31,11 @@ struct Quadric_3 {
 /// A map to the normal form of a quadric, and the signs there.
 struct Normal_quadric_3 {
   Affine_map_3 map;
-  int positive, negative; ///< numbers of squares; 2 in all for a paraboloid
+  int positive, negative; ///< numbers of squares; 2 in total for a paraboloid
 };
 
-/// Returns the quadric that is near to all points by least squares, to within a part of their size, if there is exactly
-/// one. Their centroid and size are about 0 and 1.
+/// Returns the least squares quadric of points, if it is close to all of them, to within a fraction of their size,
+/// and unique. The centroid and the size of the points must be about 0 and 1.
 inline std::optional<Quadric_3> quadric_near(const std::vector<Eigen::Vector3d>& points, double tolerance) {
   Eigen::MatrixXd rows(Eigen::Index(points.size()), 10);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -55,13 +55,13 @@ inline std::optional<Quadric_3> quadric_near(const std::vector<Eigen::Vector3d>&
   return quadric;
 }
 
-/// Returns the map to the normal form of an ellipsoid or hyperboloid, or of a paraboloid; none for cones and cylinders.
+/// Returns the map to the normal form of an ellipsoid, hyperboloid, or paraboloid; nothing for cones and cylinders.
 inline std::optional<Normal_quadric_3> normal_form(const Quadric_3& quadric) {
   constexpr double rounding = 1e-7;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(quadric.form);
   const Eigen::Vector3d values = solver.eigenvalues(), linear = solver.eigenvectors().transpose() * quadric.linear;
   const double largest = values.cwiseAbs().maxCoeff();
-  Eigen::Vector3i order(0, 1, 2); // squares with a coefficient first
+  Eigen::Vector3i order(0, 1, 2); // squares with a nonzero coefficient first
   std::sort(order.begin(), order.end(), [&](int a, int b) { return std::abs(values[a]) > std::abs(values[b]); });
   const bool is_central = std::abs(values[order[2]]) > rounding * largest;
   const int squares = is_central ? 3 : 2;
@@ -72,7 +72,7 @@ inline std::optional<Normal_quadric_3> normal_form(const Quadric_3& quadric) {
     center[order[k]] = -linear[order[k]] / values[order[k]];
     constant += linear[order[k]] * center[order[k]];
   }
-  double unit = -constant; // of the squares: they add up to it, or to the linear term times it
+  double unit = -constant; // of the squares: their sum equals it, or the linear term times it
   if (!is_central) {
     const double slope = 2 * linear[order[2]];
     if (std::abs(slope) <= rounding * largest) return std::nullopt;
@@ -80,7 +80,7 @@ inline std::optional<Normal_quadric_3> normal_form(const Quadric_3& quadric) {
     unit = values[order[0]] + values[order[1]] > 0 ? 1 : -1;
   }
   if (std::abs(unit) <= rounding * largest) return std::nullopt;
-  Eigen::Vector3d rank = values / unit; // by which the squares are sorted
+  Eigen::Vector3d rank = values / unit; // sort key of the squares
   if (!is_central) rank[order[2]] = -std::numeric_limits<double>::infinity();
   std::sort(order.begin(), order.end(), [&](int a, int b) { return rank[a] > rank[b]; });
   Normal_quadric_3 result{{}, 0, 0};
@@ -108,7 +108,7 @@ inline std::optional<Normal_quadric_3> normal_form_of(const Framed_surface_3& su
   return result;
 }
 
-/// Returns a map of the kind if both surfaces are quadrics with the same signs in their normal forms.
+/// Returns a map of a kind if both surfaces are quadrics with the same signs in their normal forms.
 inline std::optional<Affine_map_3> map_of_quadrics(const Framed_surface_3& source, const Framed_surface_3& target,
                                                    const Registration_options& options) {
   const auto from = normal_form_of(source), to = normal_form_of(target);

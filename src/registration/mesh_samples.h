@@ -25,18 +25,17 @@
 
 namespace equiaffine::internal {
 
-/// The moments of a measure in space, of an area or a volume.
+/// The moments of an area or a volume.
 struct Moments_3 {
   double measure = 0;
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
-  /// The root of the mean squared distance from the centroid.
+  /// The root mean square distance from the centroid.
   double size() const { return std::sqrt(covariance.trace()); }
 };
 
-/// The integrals of 1, x and x x^T, summed up part by part. Positions are taken relative to `origin`, so that little
-/// cancels.
+/// Accumulates the integrals of 1, x and x x^T. Positions are relative to `origin`, to reduce cancellation.
 class Moment_sums_3 {
 public:
   explicit Moment_sums_3(const Eigen::Vector3d& origin) : origin_(origin) {}
@@ -63,7 +62,7 @@ public:
     add(x.dot(y.cross(z)) / 6, sum / 4, (squares(x, y, z) + sum * sum.transpose()) / 20);
   }
 
-  /// Adds the sums of another measure about the same origin, or subtracts them.
+  /// Adds the sums of another measure about the same origin times `sign`.
   void add(const Moment_sums_3& other, double sign) {
     measure_ += sign * other.measure_;
     first_ += sign * other.first_;
@@ -93,14 +92,14 @@ private:
   double measure_ = 0;
 };
 
-/// Points that are uniform in the area of a surface, the first n of them, too, with unit normals to either side.
+/// Points uniform in the area of a surface, as are the first n of them, with unit normals of either side.
 struct Area_samples_3 {
   std::vector<Eigen::Vector3d> points, normals;
   Moments_3 area;
   std::optional<Moments_3> volume = {}; ///< of a function whose surface bounds a solid
-  double facet_error = 0; ///< the rms distance of the triangles from the smooth surface that they stand for
+  double facet_error = 0; ///< rms distance of the triangles from the smooth surface that they approximate
   double greatest_facet_error = 0;
-  bool is_cut = false; ///< whether the surface ends at its box, so that symmetries of the whole keep no centroid
+  bool is_cut = false; ///< whether the surface ends at its box, so that symmetries need not preserve the centroid
 
   double spacing() const { return std::sqrt(area.measure / double(points.size())); }
 
@@ -112,17 +111,17 @@ struct Area_samples_3 {
   }
 };
 
-/// A random point of the ball with a radius around a surface is nearer to it than t with the probability of this times
-/// t.
+/// The probability that a random point of the ball of a radius around a surface is closer to it than t is this
+/// number times t.
 inline double chance_of_nearness(double area, double radius) {
   return 2 * area / (4 * std::numbers::pi / 3 * std::pow(radius, 3));
 }
 
-/// The point n of a sequence of low discrepancy in a cube (M. Roberts, The unreasonable effectiveness of quasirandom
+/// Point n of a low-discrepancy sequence in a cube (M. Roberts, The unreasonable effectiveness of quasirandom
 /// sequences, 2018).
 template <std::size_t Dimension>
 std::array<double, Dimension> quasirandom(std::size_t n) {
-  static const double root = [] { // x^(d + 1) = x + 1 has it as its root, and this iteration as its limit
+  static const double root = [] { // the root of x^(d + 1) = x + 1, as the limit of this iteration
     double x = 1.5;
     for (int step = 0; step < 40; ++step) x = std::pow(1 + x, 1 / (1.0 + double(Dimension)));
     return x;
@@ -175,12 +174,12 @@ inline Moments_3 volume_moments(const Triangles_3& mesh, const Eigen::Vector3d& 
 
 /// An edge of a mesh with one of its triangles.
 struct Edge_of_triangle {
-  std::array<std::uint32_t, 2> ends; ///< the smaller number first
+  std::array<std::uint32_t, 2> ends; ///< smaller index first
   std::uint32_t triangle;
   bool is_forward; ///< whether the triangle has it in this order
 };
 
-/// Returns the three edges of every triangle, those with the same ends one after the other.
+/// Returns the three edges of every triangle; edges with the same ends are adjacent.
 inline std::vector<Edge_of_triangle> sorted_edges(const Triangles_3& mesh) {
   std::vector<Edge_of_triangle> edges;
   edges.reserve(3 * mesh.triangles.size());
@@ -197,11 +196,11 @@ inline std::vector<Edge_of_triangle> sorted_edges(const Triangles_3& mesh) {
 
 /// The distances between a smooth surface and triangles that touch it at their vertices.
 struct Facet_error {
-  double rms, greatest; ///< the rms over the area
+  double rms, greatest; ///< rms over the area
 };
 
-/// Returns what the width of two triangles times the angle between them, over 8, tells of all edges. Those that bend by
-/// 50 degrees or more are edges of the surface itself.
+/// Estimates the error from all edges: for each, the width of its two triangles times the angle between them, over
+/// 8. Edges that bend by 50 degrees or more are edges of the surface itself.
 inline Facet_error facet_error(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges) {
   constexpr double greatest_angle = 50 * std::numbers::pi / 180;
   double sum = 0, area = 0, greatest = 0;
@@ -219,14 +218,14 @@ inline Facet_error facet_error(const Triangles_3& mesh, const std::vector<Edge_o
   return {area > 0 ? std::sqrt(sum / (3 * area)) : 0, greatest};
 }
 
-/// Returns a usual tolerance, or less for the facets of solids with planes only: they are flat to the rounding of their
-/// coordinates, and so are their distances.
+/// Returns the usual tolerance, or less for the facets of solids bounded by planes, which are flat to the rounding
+/// of their coordinates.
 inline double tolerance_of_facets(double facet_error, double usual) {
   constexpr double rounding = 2e-5, distance_per_error = 1000;
   return std::min(usual, std::max(rounding, distance_per_error * facet_error));
 }
 
-/// The least and the greatest distance between points in contact where nothing is known of noise.
+/// The smallest and the largest distance between points in contact if the noise is unknown.
 constexpr double usual_contact = 1e-3, greatest_contact = 1e-2;
 
 /// The distance up to which points of two pieces are in contact.
@@ -235,9 +234,9 @@ inline double tolerance_of_contact(double facet_error, const Registration_option
   return tolerance_of_facets(facet_error, std::clamp(4 * facet_error, usual_contact, greatest_contact));
 }
 
-/// How far coordinates may be from those that were meant: half a unit of the last decimal place of the largest ones if
-/// many of these have it, as rounded numbers do, and if it is at most a millionth of the largest one; else half of the
-/// last bit of a float or double.
+/// The rounding error of coordinates. It is half a unit of the last decimal place of the largest coordinates, if
+/// many of these use it, as rounded numbers do, and if it is at most a millionth of the largest one; else half of
+/// the last bit of a float or double.
 inline double coordinate_rounding(const std::vector<Eigen::Vector3d>& points) {
   constexpr int most_places = 12;
   constexpr std::size_t many = 4;
@@ -269,8 +268,8 @@ inline double coordinate_rounding(const std::vector<Eigen::Vector3d>& points) {
   return std::max(decimal, binary);
 }
 
-/// Samples triangles by a sequence that is uniform in their area. The moments are those of the triangles themselves,
-/// and `edges` are their sorted edges.
+/// Samples triangles by a sequence that is uniform in their area. The moments are those of the triangles themselves;
+/// `edges` are their sorted edges.
 /// \pre the mesh has an area.
 inline Area_samples_3 mesh_samples(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges,
                                    std::size_t count) {
@@ -297,13 +296,13 @@ inline Area_samples_3 mesh_samples(const Triangles_3& mesh, const std::vector<Ed
 inline Distance_kernel::Point_3 to_CGAL(const Eigen::Vector3d& p) { return {p[0], p[1], p[2]}; }
 inline Eigen::Vector3d to_Eigen(const Distance_kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
-/// A tree of triangles, which is to have two of them at least.
+/// A tree of triangles; trees require at least two of them.
 inline Triangle_tree tree_of(std::vector<Triangle_tree::Triangle_3> triangles) {
   if (triangles.size() == 1) triangles.push_back(triangles.front());
   return Triangle_tree(std::move(triangles), 0);
 }
 
-/// The triangles that have an area beside the largest one, since others have no normal.
+/// The triangles whose area is not negligible relative to the largest one, because others have no normal.
 /// \pre the mesh has an area.
 inline std::vector<Triangle_tree::Triangle_3> triangles_with_area(const Triangles_3& mesh) {
   constexpr double rounding = 1e-14;
@@ -322,15 +321,15 @@ inline Eigen::Vector3d unit_normal(const Triangle_tree::Triangle_3& t) {
   return (to_Eigen(t[1]) - a).cross(to_Eigen(t[2]) - a).normalized();
 }
 
-/// The point of a tree's triangles that is nearest to another point.
+/// The point of the triangles of a tree that is nearest to another point.
 struct Nearest_triangle {
   Triangle_tree::Part part = 0; ///< the triangle
   Distance_kernel::Point_3 point;
   double squared_distance = std::numeric_limits<double>::infinity();
 };
 
-/// Finds the nearest triangle, by the nearer one of two children first. The depth of a tree that is halved by medians
-/// is below 64.
+/// Finds the nearest triangle, visiting the nearer of two children first. The depth of a tree halved by medians is
+/// below 64.
 /// \pre the tree has at least two triangles.
 inline Nearest_triangle nearest_triangle(const Triangle_tree& tree, const Distance_kernel::Point_3& p) {
   Nearest_triangle best;

@@ -25,10 +25,10 @@
 
 namespace equiaffine::internal {
 
-/// A point of one surface in the space of the target, with its distance from the other surface there.
+/// A point of one surface in the space of the target, with its distance from the other surface.
 struct Mapped_point {
   Eigen::Vector3d point;
-  Signed_distance_3 to_other; ///< the distance is NaN outside of the other's domain
+  Signed_distance_3 to_other; ///< the distance is NaN outside the domain of the other surface
 };
 
 /// Probes of the source moved by a map, with their distances from the target.
@@ -64,8 +64,8 @@ inline std::vector<Mapped_point> target_beside_moved_source(bool in_threads, con
   return result;
 }
 
-/// The unit of distances that belong to a map: the size of the target, or that of the moved source if it is smaller, so
-/// that no map gets better by making the source small.
+/// The unit of distances of a map: the smaller of the sizes of the target and the moved source, so that a map does not
+/// improve by shrinking the source.
 inline double unit_of_distances(const Framed_surface_3& source, const Framed_surface_3& target,
                                 const Affine_map_3& map) {
   std::vector<Eigen::Vector3d> moved;
@@ -80,7 +80,7 @@ inline Eigen::MatrixXd infinitesimal_maps(Map_kind kind) {
   int n = 0;
   for (int i = 0; i < 3; ++i) maps(9 + i, n++) = 1;
   for (int i = 0; i < 3; ++i)
-    for (int j = i + 1; j < 3; ++j) { // rotations, and for affine maps the symmetric shears, too
+    for (int j = i + 1; j < 3; ++j) { // rotations; for affine maps also symmetric shears
       maps(3 * i + j, n) = 1;
       maps(3 * j + i, n++) = -1;
       if (keeps_angles(kind)) continue;
@@ -97,16 +97,16 @@ inline Eigen::MatrixXd infinitesimal_maps(Map_kind kind) {
   return maps;
 }
 
-/// The equations that a small change of a map, a combination of infinitesimal ones, moves points onto the other
-/// surface.
+/// The linear equations for a small change of a map, a combination of infinitesimal maps, that moves points onto the
+/// other surface.
 class Refinement_equations {
 public:
   /// Points are taken relative to `center`, in the unit `size`.
   Refinement_equations(Eigen::MatrixXd basis, const Eigen::Vector3d& center, double size)
       : basis_(std::move(basis)), center_(center), size_(size) {}
 
-  /// Adds the points that are nearer than `tolerance`. `sign` is 1 for points that move with the map, and -1 for points
-  /// that stay while the other surface moves.
+  /// Adds the points closer than `tolerance`. `sign` is 1 for points that move with the map, and -1 for fixed points
+  /// while the other surface moves.
   void add(const std::vector<Mapped_point>& points, double tolerance, double sign) {
     for (const auto& [point, to_other] : points) {
       const auto& [distance, normal] = to_other;
@@ -122,8 +122,8 @@ public:
 
   std::size_t size() const { return rows_.size(); }
 
-  /// Returns the coefficients of the map that the least squares solution of least norm gives, to be applied after the
-  /// one that is refined. Combinations along which points move less than the `threshold` do not change.
+  /// Returns the coefficients of the least-squares solution of minimum norm, a map to be applied after the current one.
+  /// Combinations along which points move less than `threshold` are not changed.
   Eigen::Matrix<double, 12, 1> solution(double threshold) const {
     Eigen::MatrixXd matrix(Eigen::Index(size()), basis_.cols());
     for (std::size_t i = 0; i < size(); ++i) matrix.row(Eigen::Index(i)) = rows_[i].transpose() * basis_;
@@ -135,9 +135,9 @@ public:
     return basis_ * solution;
   }
 
-  /// Returns the map with these coefficients to first order. Its rotation is one to all orders, since a surface may be
-  /// near to a sphere and tell little of rotations. It is the one nearest to the first order, so that long steps, of
-  /// which less is known, are shortened.
+  /// Returns the map with these coefficients to first order. Its rotational part is an exact rotation, since on a nearly
+  /// spherical surface rotations are poorly determined. It is the rotation closest to the first-order map, which
+  /// shortens long, less reliable steps.
   Affine_map_3 map_of(const Eigen::Matrix<double, 12, 1>& x) const {
     const Eigen::Matrix3d change = Eigen::Map<const Eigen::Matrix3d>(x.data()).transpose();
     const Eigen::Vector3d turn =
@@ -169,18 +169,18 @@ inline double median_distance(const std::vector<Mapped_point>& a, const std::vec
   return distances.empty() ? 0 : median_of(distances);
 }
 
-/// How a map is refined.
+/// Options of refinement.
 struct Refinement {
   Map_kind kind = Map_kind::AFFINE;
   double tolerance =
-      0.05; ///< points further than this from the other surface do not count at first, a part of its size
+      0.05; ///< at first, points farther from the other surface are ignored; relative to its size
   int most_steps = 20;
   std::size_t probes = most_probes;
 };
 
-/// Refines a map by Gauss's and Newton's steps with the points both ways that are near, within 6 deviations of the
-/// median. Returns nothing if too few points are near, or the map degenerates: to shrink the source to a point of the
-/// target would be a perfect solution.
+/// Refines a map by Gauss-Newton steps with the points of both surfaces that are within 6 standard deviations of the
+/// other one. Returns nothing if too few points are that close, or if the map degenerates: shrinking the source to a
+/// point of the target would be a perfect solution.
 inline std::optional<Affine_map_3> refine_map(bool in_threads, const Framed_surface_3& source,
                                               const Framed_surface_3& target, const Affine_map_3& start,
                                               const Refinement& how) {
@@ -216,7 +216,7 @@ inline std::optional<Affine_map_3> refine_map(bool in_threads, const Framed_surf
   return map;
 }
 
-/// Returns elements in their order, the first `most` of those that are not near one before them.
+/// Returns the first `most` elements, in order, that are not near a previous one.
 template <class T, class Is_near>
 std::vector<T> without_near(const std::vector<T>& elements, std::size_t most, const Is_near& is_near) {
   std::vector<T> result;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Registers parts of meshes, without curvature, by the area in contact.
+// Registers parts of meshes by their contact area, without curvature.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_REGISTER_PIECES_H
 #define EQUIAFFINE_SRC_REGISTRATION_REGISTER_PIECES_H
 
@@ -24,7 +24,7 @@
 
 namespace equiaffine::internal {
 
-/// Two points of a surface with their normals, which make a frame if these are not parallel.
+/// Two points of a surface with their normals, which define a frame unless the normals are parallel.
 struct Pair_of_samples {
   Eigen::Vector3d middle, way; ///< from the first point to the second one
   std::array<Eigen::Vector3d, 2> normals;
@@ -40,7 +40,7 @@ struct Pair_of_samples {
   /// Positive if the normals turn to the right along the way.
   double turn() const { return normals[0].cross(normals[1]).dot(way) / distance; }
 
-  /// An orthonormal basis that depends on the normals alone, which planes have without an error.
+  /// An orthonormal basis that depends only on the normals, which are exact on planes.
   Eigen::Matrix3d frame() const {
     Eigen::Matrix3d result;
     result << (normals[0] + normals[1]).normalized(), (normals[0] - normals[1]).normalized(),
@@ -49,13 +49,13 @@ struct Pair_of_samples {
   }
 };
 
-/// A map that a pair of points of each surface gives, and how well the surfaces fit then.
+/// A map determined by a pair of points of each surface, and how well it matches the surfaces.
 struct Scored_map {
   Affine_map_3 map;
   double score;
 };
 
-/// The search for maps by pairs of points with the same distance and angles.
+/// Searches for maps by matching pairs of points with equal distance and angles.
 class Two_point_frames {
 public:
   Two_point_frames(bool in_threads, const Piece_of_surface_3& source, const Piece_of_surface_3& target,
@@ -64,7 +64,7 @@ public:
         options_(options), nearest_{Nearest_of_cells::of(in_threads, source),
                                     Nearest_of_cells::of(in_threads, target)} {}
 
-  /// Returns maps that are different, the best first.
+  /// Returns distinct maps, the best first.
   std::vector<Scored_map> run() {
     const auto bases = chosen_bases();
     std::vector<std::vector<Scored_map>> found(bases.size());
@@ -87,7 +87,7 @@ private:
 
   bool keeps_size() const { return options_.kind == Map_kind::RIGID; }
 
-  /// Pairs that are far apart and whose normals and way are far from a plane.
+  /// Pairs of distant points whose normals and connecting line are far from coplanar.
   std::vector<Pair_of_samples> chosen_bases() const {
     const auto& samples = source_.samples();
     const std::size_t n = std::min(points, samples.points.size());
@@ -104,7 +104,7 @@ private:
     return result;
   }
 
-  /// The maps that move a pair of points of the source to similar ones of the target, the best first.
+  /// The maps that move a pair of points of the source to similar pairs of the target, the best first.
   std::vector<Scored_map> maps_of(const Pair_of_samples& base, std::size_t& tried) const {
     const auto pairs = similar_pairs(base);
     tried = std::min(pairs.size(), most_per_base);
@@ -123,7 +123,7 @@ private:
     std::stable_sort(maps.begin(), maps.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
   }
 
-  /// The pairs of the target whose distance and angles differ by what the spacing of the samples allows.
+  /// The pairs of the target whose distance and angles agree to within the spacing of the samples.
   std::vector<std::array<std::size_t, 2>> similar_pairs(const Pair_of_samples& base) const {
     constexpr double bend = 0.05;
     const auto& samples = target_.samples();
@@ -156,7 +156,7 @@ private:
     return {matrix, to.middle - matrix * from.middle};
   }
 
-  /// The area in contact, less that of contradictions, beside the smaller one of the two surfaces.
+  /// The contact area minus that of contradictions, relative to the area of the smaller surface.
   double score(const Affine_map_3& map) const {
     const Similarity_3 s(map);
     const double areas[] = {source_.samples().area.measure * s.scale * s.scale, target_.samples().area.measure};
@@ -184,7 +184,7 @@ private:
     return sum / double(n);
   }
 
-  /// Returns the best maps, without those near to a better one.
+  /// Returns the best maps, without those close to a better one.
   std::vector<Scored_map> different(std::vector<Scored_map> maps) const {
     constexpr double least_difference = 0.15;
     sort(maps);
@@ -202,10 +202,10 @@ private:
   std::size_t hypotheses_ = 0;
 };
 
-/// The search for maps between two pieces whose areas have centroid 0, in coordinates where the target has size 1.
+/// Searches for maps between two pieces with area centroids at 0, in units of the size of the target.
 class Registration_of_pieces {
 public:
-  /// Points nearer than `tolerance` are in contact.
+  /// Points closer than `tolerance` are in contact.
   Registration_of_pieces(bool in_threads, const Piece_of_surface_3& source, const Piece_of_surface_3& target,
                          const Registration_options& options, double tolerance)
       : in_threads_(in_threads), source_(source), target_(target), options_(options), tolerance_(tolerance),
@@ -246,11 +246,11 @@ private:
     }
   };
 
-  /// Points nearer than a limit are in contact.
+  /// Points closer than a limit are in contact.
   struct Steps {
     std::size_t samples;
     int most;
-    double first_limit, contraction, last_limit; ///< the limit falls by a factor at most
+    double first_limit, contraction, last_limit; ///< the limit decreases by at most this factor per step
   };
 
   static std::vector<Candidate> candidates_of(const std::vector<Scored_map>& maps) {
@@ -259,7 +259,7 @@ private:
     return result;
   }
 
-  /// The size of the target, or that of the moved source if it is smaller.
+  /// The smaller of the sizes of the target and the moved source.
   double unit(const Affine_map_3& map) const {
     return std::min(1.0, Similarity_3(map).scale * source_.samples().area.size());
   }
@@ -276,7 +276,7 @@ private:
     std::erase_if(candidates, [](const Candidate& c) { return !c.is_sound; });
   }
 
-  /// Takes steps of Gauss and Newton with the points in contact, within 6 deviations of the median.
+  /// Takes Gauss-Newton steps with the points in contact, within 6 standard deviations.
   bool refine(Affine_map_3& map, const Steps& how) const {
     constexpr double rounding = 1e-12;
     const double first_determinant = map.matrix.determinant();
@@ -301,7 +301,7 @@ private:
     return true;
   }
 
-  /// The points in contact with their signed distances from the planes of the triangles.
+  /// The points in contact, with their signed distances from the planes of the triangles.
   static std::vector<Mapped_point> touching_points(const std::vector<Mapped_sample>& samples) {
     std::vector<Mapped_point> result;
     for (const Mapped_sample& s : samples)
@@ -331,7 +331,7 @@ private:
     });
   }
 
-  /// Returns how far a map moves points from where another one moves them, about, beside the size of the target.
+  /// Returns about how far apart two maps move the same points, relative to the size of the target.
   double difference(const Affine_map_3& a, const Affine_map_3& b) const {
     return (a.matrix - b.matrix).norm() * source_.samples().area.size() + (a.translation - b.translation).norm();
   }
@@ -344,7 +344,7 @@ private:
     sort_best_by_rms(candidates);
   }
 
-  /// Maps with about as much in contact as the best one are as good as near they move the surfaces to each other.
+  /// Maps with about the same contact area as the best one are ranked by their distances.
   static void sort_best_by_rms(std::vector<Candidate>& candidates) {
     constexpr double as_good = 0.98;
     const auto end = std::find_if(candidates.begin(), candidates.end(),
@@ -362,13 +362,13 @@ private:
              " % of the points of a mesh lie off the other one, which does not end there";
     if (e.rigidity < least_rigidity * tolerance_) return "the parts in contact slide over each other";
     if (e.affine_rigidity < least_rigidity * tolerance_)
-      return "the parts in contact are like a corner of three planes, which many shapes have";
-    if (e.log10_false_alarms > accepted_log10) return "the parts in contact may be so by chance";
+      return "the parts in contact look like a corner of three planes, which is not distinctive";
+    if (e.log10_false_alarms > accepted_log10) return "the contact could be a coincidence";
     return {};
   }
 
   std::string reason_for_none(const std::vector<Candidate>& candidates) const {
-    return candidates.empty() ? "no pairs of points of the two are alike" : reason_against(candidates.front().evidence);
+    return candidates.empty() ? "no pairs of points of the two meshes are similar" : reason_against(candidates.front().evidence);
   }
 
   bool in_threads_;
@@ -378,20 +378,20 @@ private:
   std::size_t hypotheses_ = 0;
 };
 
-/// Why no map moves a part of one mesh onto the other, as far as areas and sizes tell.
+/// Why no map can move a part of one mesh onto the other, judging by areas and sizes.
 inline std::string reason_against_pieces(const Moments_3& source, const Moments_3& target, Map_kind kind) {
-  constexpr double greatest_ratio = 50; // whose samples still meet the smaller mesh
-  if (!keeps_angles(kind)) return "pieces are matched by rigid maps and similarities only";
+  constexpr double greatest_ratio = 50; // for which samples still hit the smaller mesh
+  if (!keeps_angles(kind)) return "pieces can be matched only by rigid maps and similarities";
   if (!(source.measure > 0) || !(target.measure > 0)) return "a mesh has no area";
   const double ratio = source.size() / target.size();
   if (kind == Map_kind::RIGID && !(std::max(ratio, 1 / ratio) < greatest_ratio))
-    return "one mesh is more than 50 times as large as the other, and rigid maps keep sizes";
+    return "one mesh is more than 50 times as large as the other, and rigid maps preserve sizes";
   return {};
 }
 
-/// Finds rigid maps or similarities that move a mesh, or a part of it, onto another one, without curvature: pieces of
-/// planes and cylinders will do. Accepts those that the area in contact proves, and that no other points contradict.
-/// The source may be inside out, as meshes are that somebody mirrored. Facets of solids stand for nothing smooth.
+/// Finds rigid maps or similarities that move a mesh, or a part of it, onto another one. Curvature is not needed: pieces
+/// of planes and cylinders are enough. Accepts maps with significant contact area that no other points contradict. The
+/// source may be inside out, like a mirrored mesh. Facets are taken as exact, not as samples of a smooth surface.
 inline Shape_matches register_pieces(bool in_threads, const Triangles_3& source, const Triangles_3& target,
                                      const Registration_options& options, bool are_solids = false) {
   const Moments_3 areas[] = {area_moments(source), area_moments(target)};
@@ -410,7 +410,7 @@ inline Shape_matches register_pieces(bool in_threads, const Triangles_3& source,
   };
   const Piece_of_surface_3 p = piece(a, edges_a), q = piece(b, edges_b);
   if (!p.is_oriented() || !q.is_oriented()) {
-    result.reason = "the triangles of a mesh are not on one side";
+    result.reason = "the triangles of a mesh are not consistently oriented";
     return result;
   }
   const auto search = [&](const Piece_of_surface_3& from) {

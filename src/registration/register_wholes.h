@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Registers whole surfaces by their centroids, trying all rotations and reflections.
+// Registers whole surfaces by their centroids and a search of all rotations and reflections.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_REGISTER_WHOLES_H
 #define EQUIAFFINE_SRC_REGISTRATION_REGISTER_WHOLES_H
 
@@ -22,15 +22,15 @@
 
 namespace equiaffine::internal {
 
-/// The rms distances of whole surfaces.
+/// Thresholds on rms distances of whole surfaces.
 struct Tolerances_of_wholes {
-  double equal; ///< up to which they are equal
-  double alone; ///< up to which they are alike by one map if all others are twice as far
-  double tried; ///< up to which rotations are tried
+  double equal; ///< the surfaces are equal up to this distance
+  double alone; ///< a map counts up to this distance if all others are twice as far off
+  double tried; ///< rotations are tried up to this distance
 };
 
-/// Triangles are off a smooth surface, and thin surfaces are nearer to others. Two samplings of one object, such as a
-/// scan and its coarse version, are alike without being equal; solids with planes only have no such versions.
+/// Triangles deviate from a smooth surface, and thin surfaces are closer to others. Two samplings of one object, such as
+/// a scan and its coarse version, are similar without being equal; polyhedral solids have no such versions.
 inline Tolerances_of_wholes tolerances_of_wholes(const Centered_pair& surfaces, const Registration_options& options) {
   constexpr double least = 3e-3, greatest = 0.01, alike = 0.015;
   const double facet_error = surfaces.source.samples.facet_error + surfaces.target.samples.facet_error;
@@ -41,8 +41,8 @@ inline Tolerances_of_wholes tolerances_of_wholes(const Centered_pair& surfaces, 
   return {equal, equal < usual ? 0 : alike * thickness, usual};
 }
 
-/// A map between centered surfaces with its evidence, in the coordinates of the surfaces. Points further from the other
-/// surface than `touching` contradict it, and the others lie on it.
+/// A map between centered surfaces with its evidence, in the coordinates of the surfaces. Points farther than `touching`
+/// from the other surface contradict the map, and the others lie on it.
 inline Shape_match match_of(const Centered_pair& surfaces, const Affine_map_3& map, double touching,
                             const Judgement& how) {
   const auto& [source, target] = surfaces;
@@ -59,8 +59,9 @@ inline Shape_match match_of(const Centered_pair& surfaces, const Affine_map_3& m
           {1 - parts[0], 1 - parts[1]}};
 }
 
-/// Rotations near all that may move one surface to within a distance of the other. Where the source slips about an axis
-/// there are too many, and the nearest of them do; a surface that slips every way is a sphere.
+/// Returns rotations close to all those that may move one surface to within a distance of the other. If the source is
+/// symmetric about an axis there are too many, and the best ones are enough; a surface that is symmetric about every axis
+/// is a sphere.
 inline std::vector<Rotation_candidate> rotations_to_refine(bool in_threads, const Centered_pair& surfaces,
                                                            double distance, bool allows_reflections,
                                                            std::size_t dimension_of_slippage) {
@@ -72,14 +73,14 @@ inline std::vector<Rotation_candidate> rotations_to_refine(bool in_threads, cons
   return rotations;
 }
 
-/// Whether the best map is below an rms and all others are at least twice as far.
+/// Whether the best map is below an rms distance and all others are at least twice as far off.
 inline bool is_one_alone(const std::vector<Centered_map>& maps, double rms) {
   return !maps.empty() && maps[0].rms < rms && (maps.size() == 1 || maps[1].rms > 2 * maps[0].rms);
 }
 
-/// The maps that move a whole surface onto another one: they keep the centroid of the area, and affine ones the moments
-/// of the solid inside, so that all rotations and reflections about the centroid are tried, and no curvature is needed.
-/// Surfaces whose extents differ by a tenth of the size are not equal, and no rotation is tried.
+/// The maps that move a whole surface onto another one. They preserve the centroid of the area, and affine maps the
+/// moments of the enclosed solid, so all rotations and reflections about the centroid are tried and no curvature is
+/// needed. Surfaces whose extents differ by a tenth of the size are not equal, and no rotation is tried.
 inline Shape_matches register_wholes(bool in_threads, const Centered_surface_3& source,
                                      const Centered_surface_3& target, const Registration_options& options) {
   constexpr double gate = 0.06, least_difference = 0.1, most_contradictions = 0.1;
@@ -120,7 +121,7 @@ inline Shape_matches register_wholes(bool in_threads, const Centered_surface_3& 
   return result;
 }
 
-/// The number of maps beside the first that move as much of the surfaces onto each other, as near.
+/// The number of other maps that match as much of the surfaces as closely as the first one.
 inline std::size_t equally_good(const Shape_matches& found) {
   constexpr double part = 0.98, factor = 3, rounding = 1e-9;
   const auto least_inliers = [](const Shape_match& m) { return std::min(m.inliers[0], m.inliers[1]); };
@@ -132,7 +133,7 @@ inline std::size_t equally_good(const Shape_matches& found) {
   }));
 }
 
-/// Converts what was found to the types of CGAL. One map stands for all of a continuous family.
+/// Converts the result to the types of CGAL. One map represents a continuous family.
 inline Surface_registration_3<Kernel_of_searches> to_CGAL(Shape_matches found, const Registration_options& options) {
   Surface_registration_3<Kernel_of_searches> result;
   const bool slips = found.slippage.dimension() > 0;

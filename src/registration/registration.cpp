@@ -28,7 +28,7 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// So many points, at least, tell of a whole surface that it is meant.
+/// The fewest points for which a surface is treated as a whole.
 constexpr std::size_t fewest_points_of_whole = 16;
 
 } // namespace
@@ -37,8 +37,8 @@ Registration_of_functions_3 registration_of_functions(bool in_threads, const Sur
                                                       const Surface_to_register& target,
                                                       const Registration_options& options) {
   const auto points = vectors_of(source.mesh.points), target_points = vectors_of(target.mesh.points);
-  check_argument(!points.empty(), "a surface to be registered has no points: give points of the source");
-  check_argument(!target_points.empty(), "a surface to register with has no points: give points of the target");
+  check_argument(!points.empty(), "the source has no points: pass points of the surface to register");
+  check_argument(!target_points.empty(), "the target has no points: pass points of the surface to register with");
   const Framed_function_3 function(source.function), target_function(target.function);
   const Framed_function_3 refinement(source.refined()), target_refinement(target.refined());
   const auto framed = framed_surface(in_threads, function, refinement, points, options.kind);
@@ -46,7 +46,7 @@ Registration_of_functions_3 registration_of_functions(bool in_threads, const Sur
       framed_surface(in_threads, target_function, target_refinement, target_points, options.kind);
   Affine_slippage_3 slippage = slippage_of_source(framed, options.kind);
   if (slippage.dimension() > 0 && has_exact_frames(framed)) {
-    constexpr double longest = 4; // beside the tolerance, which is one of velocities
+    constexpr double longest = 4; // relative to the tolerance, which is one of velocities
     const Symmetry_check check = Symmetry_check::of(in_threads, source.refined());
     const Checked_map moved = check.check_flows(in_threads, slippage.generators);
     if (moved.rms > longest * slippage_tolerance * check.size()) slippage = {};
@@ -67,10 +67,10 @@ Registration_of_functions_3 registration_of_functions(bool in_threads, const Sur
 Surface_registration_3<Kernel_of_searches> registration_of_triangles(bool in_threads, const Triangles_3& source,
                                                                      const Triangles_3& target,
                                                                      const Registration_options& options) {
-  check_argument(!source.triangles.empty(), "a mesh to be registered has no faces: give faces of the source");
-  check_argument(!target.triangles.empty(), "a mesh to register with has no faces: give faces of the target");
+  check_argument(!source.triangles.empty(), "the source has no faces: pass the mesh to register");
+  check_argument(!target.triangles.empty(), "the target has no faces: pass the mesh to register with");
   Centered_surface_3 from = centered_surface(source, options.kind), to = centered_surface(target, options.kind);
-  // Facets of solids with corners are their faces, and explain no distance.
+  // The facets of a solid with corners are its faces, so they do not explain any distance.
   const bool are_solids = has_group_of_corners(in_threads, source, coordinate_rounding(source.points)) &&
                           has_group_of_corners(in_threads, target, coordinate_rounding(target.points));
   if (are_solids) from.samples.facet_error = to.samples.facet_error = 0;
@@ -85,7 +85,7 @@ Surface_registration_3<Kernel_of_searches> registration_of_triangles(bool in_thr
 
 bool differ_as_wholes(bool in_threads, const Any_function_3& source, const Any_function_3& target, Map_kind kind,
                       bool allows_reflections) {
-  constexpr double difference = 0.03; // of what is equal, a part of the size
+  constexpr double difference = 0.03; // of equal surfaces, relative to the size
   const auto a = centered_surface(in_threads, source, kind), b = centered_surface(in_threads, target, kind);
   if (!a.reason_against.empty() || !b.reason_against.empty()) return false;
   const double ratio = std::cbrt(std::abs(a.map.matrix.determinant() / b.map.matrix.determinant()));

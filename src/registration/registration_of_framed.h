@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Registers surfaces, whole or in part, by the affine frames of their points.
+// Registers whole surfaces or parts by the affine frames of their points.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_REGISTRATION_OF_FRAMED_H
 #define EQUIAFFINE_SRC_REGISTRATION_REGISTRATION_OF_FRAMED_H
 
@@ -30,18 +30,18 @@
 
 namespace equiaffine::internal {
 
-/// The points of the source and of the target whose frames give a map.
+/// The points of the source and the target whose frames determine a map.
 using Pair_of_points = std::array<Framed_point_3, 2>;
 
-/// A map that was refined, and what is known of it.
+/// A refined map and its evidence.
 struct Judged_map {
   Affine_map_3 map;
   Map_evidence evidence;
   std::optional<Pair_of_points> pair;
 };
 
-/// The search for maps from the source to the target: each pair of points with the same invariants makes one
-/// hypothesis. Pairs are matched in parallel, and judged one after the other in a fixed order.
+/// Searches for maps from the source to the target: each pair of points with equal invariants is a hypothesis. Pairs are
+/// matched in parallel, and judged sequentially in a fixed order.
 class Registration_search {
 public:
   Registration_search(bool in_threads, const Framed_surface_3& source, const Framed_surface_3& target,
@@ -50,15 +50,14 @@ public:
         tolerance_(options.tolerance.value_or(std::clamp(
             8 * std::max(source.noise, target.noise), thresholds_.exact_tolerance, thresholds_.greatest_tolerance))) {}
 
-  /// Tries pairs that are alike, then, as long as no map is accepted, others that may be alike where structure is
-  /// wrong.
+  /// Tries similar pairs; then, while no map is accepted, pairs that might be similar if the structure is inaccurate.
   void run() {
     const auto points = points_to_try(in_threads_, source_, options_.kind, thresholds_.most_points_to_try, thresholds_);
     try_all(points, thresholds_.usual);
     if (first_accepted_ == 0) try_all(points, thresholds_.wrong_structure);
   }
 
-  /// Refines a map and keeps it if it becomes as good as a right one would after so many steps.
+  /// Refines a map and keeps it if it becomes as good as a correct map would after as many steps.
   void try_map(const Affine_map_3& map, const std::optional<Pair_of_points>& pair = {}) {
     ++hypotheses_;
     const Map_evidence first = rough_evidence(map, thresholds_.greatest_first_tolerance);
@@ -73,7 +72,7 @@ public:
     if (refined && !is_known(*refined, 1e-4)) keep({*refined, evidence(*refined), pair});
   }
 
-  /// Tries all other images of the point that gave the best map: where the target has symmetries, others fit as well.
+  /// Tries all other images of the point of the best map: if the target has symmetries, other maps fit equally well.
   void find_equally_good() {
     const auto best = accepted();
     if (best.empty() || !best.front().pair) return;
@@ -96,7 +95,7 @@ public:
     hypotheses_ = hypotheses; // of the search for a map
   }
 
-  /// The number of maps beside the best that move as many points onto the other surface, as near.
+  /// The number of other maps that move as many points onto the other surface, as closely, as the best one.
   std::size_t equally_good() const {
     constexpr double part = 0.98, factor = 3;
     const auto maps = accepted();
@@ -112,7 +111,7 @@ public:
   std::size_t hypotheses() const { return hypotheses_; }
   double tolerance() const { return tolerance_; } ///< in the unit of distances
 
-  /// The maps that are no accident, and different from each other, the best first.
+  /// The significant maps, distinct from each other, the best first.
   std::vector<Judged_map> accepted() const {
     std::vector<Judged_map> result;
     for (const Judged_map& m : maps_)
@@ -123,7 +122,7 @@ public:
     return result;
   }
 
-  /// The rms of the best map, accepted or not, that is not the first accepted one.
+  /// The rms distance of the best map other than the first accepted one, whether accepted or not.
   std::optional<double> next_best_rms() const {
     const auto maps = accepted();
     for (const Judged_map& m : maps_)
@@ -133,7 +132,7 @@ public:
 
 private:
   static constexpr std::size_t most_images = 200;
-  static constexpr double same = 0.02; ///< maps that differ by less are one
+  static constexpr double same = 0.02; ///< maps that differ by less are the same
 
   bool is_accepted(const Judged_map& m) const { return m.evidence.log10_false_alarms < thresholds_.accepted_log10; }
 
@@ -196,7 +195,7 @@ private:
     return evidence_of_map(in_threads_, source_, target_, map, how);
   }
 
-  /// Keeps the maps in the order of their evidence.
+  /// Sorts the maps by their evidence.
   void keep(const Judged_map& m) {
     if (is_accepted(m) && first_accepted_ == 0) first_accepted_ = hypotheses_;
     const auto is_better = [this](const Judged_map& a, const Judged_map& b) {
@@ -206,13 +205,13 @@ private:
     maps_.insert(std::upper_bound(maps_.begin(), maps_.end(), m, is_better), m);
   }
 
-  /// Whether a map differs from one that is accepted by less than a part of the size of the moved source.
+  /// Whether a map differs from an accepted one by less than a fraction of the size of the moved source.
   bool is_known(const Affine_map_3& map, double part) const {
     return std::any_of(maps_.begin(), maps_.end(),
                        [&](const Judged_map& m) { return is_accepted(m) && difference_of(map, m.map) < part; });
   }
 
-  /// The mean distance between images of points, beside the size of the moved source.
+  /// The mean distance between images of points, relative to the size of the moved source.
   double difference_of(const Affine_map_3& a, const Affine_map_3& b) const {
     const std::size_t count = std::min<std::size_t>(20, source_.probes.size());
     double sum = 0;
@@ -224,7 +223,7 @@ private:
   const Framed_surface_3 &source_, &target_;
   Registration_options options_;
   Frame_thresholds thresholds_;
-  double tolerance_; ///< in the unit of distances: surfaces that are nearer may be equal
+  double tolerance_; ///< in the unit of distances: closer surfaces may be equal
   std::size_t hypotheses_ = 0, first_accepted_ = 0;
   std::vector<Judged_map> maps_;
   std::set<std::array<std::size_t, 2>> tried_; ///< pairs of points of the source and of the target
@@ -257,8 +256,8 @@ inline bool is_equivalence(bool in_threads, const Framed_surface_3& source, cons
              part_of_same_surface;
 }
 
-/// Whether the probes lie in a plane to within a part of their size. Each map between planes moves all of one onto the
-/// other, which is no evidence.
+/// Whether the probes lie in a plane to within a fraction of their size. Every map between planes moves one onto the
+/// other, which is not evidence.
 inline bool is_in_plane(const Framed_surface_3& surface, double tolerance) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : surface.probes) mean += p / double(surface.probes.size());
@@ -269,7 +268,7 @@ inline bool is_in_plane(const Framed_surface_3& surface, double tolerance) {
   return !(variance > std::pow(tolerance * surface.size, 2));
 }
 
-/// How the source slides over itself by the velocities at its probes.
+/// The motions by which the source slides over itself, from the velocities at its probes.
 inline Affine_slippage_3 slippage_of_source(const Framed_surface_3& source, Map_kind kind) {
   const bool is_exact = has_exact_frames(source);
   Affine_slippage_3 result = slippage_of(source, kind, is_exact ? slippage_tolerance : slippage_of_fits);

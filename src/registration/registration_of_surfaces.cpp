@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The decisions between the searches for a map: at which scales fits are compared, which maps are kept, and what to
-// try where there is none.
+// Chooses between the searches for a map: the scales at which fits are compared, the maps that are kept, and what to
+// try if there is none.
 #include "registration/surface_of_data.h"
 #include <equiaffine/base/Input_error.h>
 #include <equiaffine/base/internal/parallel_for.h>
@@ -29,24 +29,24 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// The thresholds of maps between surfaces, beside those of each search.
+/// Thresholds for maps between surfaces, in addition to those of each search.
 struct Surface_thresholds {
   // The scales of fits that are tried.
-  std::array<double, 4> spacings = {10, 14, 7, 20}; ///< multiples of the mean distance of points
-  double same_spacing = 1.2;                        ///< spacings whose ratio is below this are the same
-  double greatest_scale = 0.5;                      ///< a part of the diagonal of the smaller surface
+  std::array<double, 4> spacings = {10, 14, 7, 20}; ///< multiples of the mean spacing of the points
+  double same_spacing = 1.2;                        ///< spacings with a smaller ratio count as equal
+  double greatest_scale = 0.5;                      ///< relative to the diagonal of the smaller surface
 
   // Maps between surfaces at a scale.
-  std::size_t fewest_parts = 6;      ///< separate parts of the source, each as large as the scale, lie on the target
-  double part_on_target = 0.7;       ///< of the points of such a part
+  std::size_t fewest_parts = 6;      ///< separate parts of the source, each as large as the scale, that must lie on the target
+  double part_on_target = 0.7;       ///< the fraction of the points of such a part
   std::size_t most_points = 4000;    ///< by which parts are judged
-  double deviations = 4;             ///< within which a point lies on the target
-  double least_part_of_scale = 1e-3; ///< within which it does, whatever the deviation is
-  double greatest_factor = 2;        ///< by which the change of volumes differs from that of scales
+  double deviations = 4;             ///< standard deviations within which a point lies on the target
+  double least_part_of_scale = 1e-3; ///< a distance within which it does for any deviation
+  double greatest_factor = 2;        ///< by which the changes of volume and scale may differ
 
   // Maps between closed meshes.
-  double most_contradictions = 0.1;        ///< the part of a mesh that may be off the other
-  double deviations_of_contradictions = 3; ///< beyond which a point is off
+  double most_contradictions = 0.1;        ///< the fraction of a mesh that may be off the other one
+  double deviations_of_contradictions = 3; ///< standard deviations beyond which a point is off
 };
 
 constexpr Surface_thresholds surface_thresholds;
@@ -60,7 +60,7 @@ bool are_meshes(const Registration_of_surfaces& found) { return found.source.is_
 
 Triangles_3 triangles_of_mesh(const Mesh_of_searches& mesh) { return triangles_of_soup(mesh.points, mesh.triangles); }
 
-/// The point of a level set near another one, by Newton's steps along the gradient.
+/// Returns the point of a level set close to a given one, by Newton steps along the gradient.
 Kernel_of_searches::Point_3 on_level_set(Kernel_of_searches::Point_3 p, const Any_function_3& surface) {
   constexpr int steps = 3;
   for (int n = 0; n < steps; ++n) {
@@ -72,8 +72,8 @@ Kernel_of_searches::Point_3 on_level_set(Kernel_of_searches::Point_3 p, const An
   return p;
 }
 
-/// The number of separate parts of the source, each as large as the scale, whose points lie on the target. Frames of a
-/// pair of points make one part agree, and its neighbors with it, however unlike the surfaces are.
+/// The number of separate parts of the source, each as large as the scale, whose points lie on the target. The frames of
+/// a pair of points make one part and its neighbors agree, even if the surfaces are different.
 std::size_t number_of_matched_parts(bool in_threads, const Registration_of_surfaces& found,
                                     const Registered_map_3<Kernel_of_searches>& map) {
   const Surface_thresholds& limits = surface_thresholds;
@@ -101,9 +101,9 @@ std::size_t number_of_matched_parts(bool in_threads, const Registration_of_surfa
   return parts;
 }
 
-/// Leaves out maps between closed meshes by which a large part of one is off the other, since frames along one edge
-/// make many points agree, and maps between solids, whose corners a fit makes round. Distances, and which points are on
-/// the other surface, become those of the triangles.
+/// Removes maps between closed meshes that leave a large part of one off the other, since frames along one edge make many
+/// points agree; and maps between solids, whose corners a fit rounds. Distances, and which points are on the other
+/// surface, are then measured by the triangles.
 void judge_by_triangles(Registration_of_surfaces& found) {
   const Triangles_3 target = triangles_of_mesh(found.target.mesh);
   std::erase_if(found.result.maps, [&](auto& map) {
@@ -121,8 +121,8 @@ void judge_by_triangles(Registration_of_surfaces& found) {
   if (!found.result.found()) found.result.equally_good = 0;
 }
 
-/// The search for a map by frames of curvature. Curvatures of two fits can be compared at the same scale only, so that
-/// fits whose scale the data chose are tried at multiples of the distance of their points, until there is a map.
+/// Searches for a map by frames of curvature. Curvatures of two fits can be compared only at the same scale, so fits with
+/// a scale chosen from the data are tried at multiples of the spacing of their points until a map is found.
 class Search_at_scales {
 public:
   Search_at_scales(bool in_threads, const Registration_options& options) : in_threads_(in_threads), options_(options) {}
@@ -148,7 +148,7 @@ public:
   }
 
 private:
-  /// Looks for a map between the surfaces as they are. Hypotheses become those of all searches so far.
+  /// Searches for a map between the surfaces as given. The number of hypotheses accumulates over all searches.
   bool look(Registration_of_surfaces& found, bool are_scales_tried) {
     auto result = registration_of_functions(in_threads_, found.source, found.target, options_).result;
     result.scales = std::move(found.result.scales);
@@ -162,9 +162,9 @@ private:
     return found.result.found();
   }
 
-  /// The scale that one side has; else those from ten spacings on, while they are smaller than the surfaces: the same
-  /// length on both sides, since maps of scans mostly keep sizes, and each side's own multiple where points are not as
-  /// dense.
+  /// The given scale of one side; otherwise those from ten spacings up to the size of the surfaces: the same length on
+  /// both sides, since maps of scans mostly preserve sizes, and the multiple of each side's own spacing if the densities
+  /// differ.
   static std::vector<Scales> scales_to_try(const Registration_of_surfaces& first) {
     for (const Surface_to_register* side : {&first.source, &first.target})
       if (const auto& given = side->given_scale; given && *given > 0) return {{*given, *given}};
@@ -184,7 +184,7 @@ private:
     return scales;
   }
 
-  /// The surfaces with fits at these scales where the scale is free, if such fits are possible.
+  /// The surfaces with fits at these scales if the scale is free and such fits are possible.
   static std::optional<Registration_of_surfaces> at_scales(const Registration_of_surfaces& first,
                                                            const Scales& scales) {
     const auto at_scale = [](const Surface_to_register& surface, double scale) {
@@ -197,9 +197,9 @@ private:
     }
   }
 
-  /// Leaves out maps between fits at scales by which too few parts agree, and those that do not carry one scale to the
-  /// other if they were tried, since curvatures at different scales are not the same quantity. Makes the odds those of
-  /// all attempts together, and leaves out what is no better than chance then.
+  /// Removes maps between fits at scales for which too few parts agree. If several scales were tried, also removes maps
+  /// that do not map one scale to the other, since curvatures at different scales are different quantities. The
+  /// significance becomes that of all attempts together, and maps that are no better than chance are removed.
   void judge_by_scales(bool are_scales_tried, Registration_of_surfaces& found) const {
     const bool are_at_scale = found.source.scale && found.target.scale;
     const double ratio = are_at_scale ? *found.target.scale / *found.source.scale : 1;
@@ -221,7 +221,7 @@ private:
   std::size_t attempts_ = 0, hypotheses_ = 0;
 };
 
-/// Compares the triangles of two meshes as wholes and, for maps that keep angles, piece by piece.
+/// Compares the triangles of two whole meshes and, for maps that preserve angles, of their pieces.
 void compare_triangles(bool in_threads, const Registration_options& options, Registration_of_surfaces& found) {
   auto by_triangles = registration_of_triangles(in_threads, triangles_of_mesh(found.source.mesh),
                                                 triangles_of_mesh(found.target.mesh), options);
@@ -256,8 +256,8 @@ void add_for_scales(const Surface_to_register& source, const Surface_to_register
     advice.push_back((is_fitted(source) ? scale : other) ? LARGER_SCALE : A_SCALE);
 }
 
-/// What may find a map where none was found, the most promising first. Pieces of meshes without curvature are matched
-/// by maps that keep angles only, and derivatives that are too rough have no frames that agree, or wrong ones.
+/// What to try if no map was found, the most promising first. Pieces of meshes without curvature can be matched only by
+/// maps that preserve angles, and inaccurate derivatives have frames that do not agree or are wrong.
 std::vector<Registration_advice> advice_for_map(const Registration_options& options,
                                                 const Registration_of_surfaces& found) {
   using enum Registration_advice;
@@ -312,7 +312,7 @@ Registration_of_surfaces registration_of_surfaces(bool in_threads, Surface_to_re
                                                   Surface_to_register target, const Registration_options& options) {
   Registration_of_surfaces found = Search_at_scales(in_threads, options).run(std::move(source), std::move(target));
   if (!found.result.found() && are_meshes(found)) compare_triangles(in_threads, options, found);
-  else if (found.source.is_mesh) // a fit makes edges round, and slides where they do not
+  else if (found.source.is_mesh) // a fit rounds edges, and may slide where they do not
     found.result.slippage = slippage_of_triangles(in_threads, triangles_of_mesh(found.source.mesh), options.kind);
   if (!found.result.found()) found.result.advice = advice_for_map(options, found);
   return found;

@@ -18,15 +18,14 @@
 
 namespace equiaffine::internal {
 
-/// Singular values below this part of the largest one count as zero by default: those of a surface that slips are
-/// roundings, and those of an ellipsoid that is disturbed by a part of 1e-4 are 1e-5.
+/// By default, singular values below this fraction of the largest one count as zero: those of a surface that slides over
+/// itself are rounding errors, and those of an ellipsoid with a relative perturbation of 1e-4 are 1e-5.
 constexpr double slippage_tolerance = 1e-8;
 
-/// The thresholds for formulas, whose values are roundings, and for fits, whose normals have errors.
+/// The thresholds for formulas, which have rounding errors, and for fits, whose normals have errors.
 constexpr double exact_slippage = 3e-13, slippage_of_fits = 0.01;
 
-/// Infinitesimal maps, those along which a surface slides best first, and the rms of the normal part of the velocity of
-/// each, beside the largest one.
+/// Infinitesimal maps, the best slippages first, and the rms normal velocity of each, relative to the largest.
 struct Sliding_maps {
   std::vector<Infinitesimal_map_3> maps;
   std::vector<double> rms;
@@ -38,9 +37,9 @@ struct Sliding_maps {
   }
 };
 
-/// The singular vectors of the matrix with a row normal . (M p + c) per point, for the maps of a kind in coordinates of
-/// the surface (Gelfand, Guibas: Shape segmentation using local slippage analysis, 2004, for rigid maps). `size` is
-/// that of the surface, and there are no maps if it is in a plane.
+/// Computes the singular vectors of the matrix with a row normal . (M p + c) per point, for the maps of a kind, in the
+/// coordinates of the surface (for rigid maps: Gelfand, Guibas, Shape segmentation using local slippage analysis, 2004).
+/// `size` is the size of the surface; there are no maps if it lies in a plane.
 inline Sliding_maps sliding_maps(const std::vector<Eigen::Vector3d>& points,
                                  const std::vector<Eigen::Vector3d>& normals, Map_kind kind, double size) {
   Sliding_maps result;
@@ -71,7 +70,7 @@ inline Sliding_maps sliding_maps(const std::vector<Eigen::Vector3d>& points,
   return result;
 }
 
-/// The map at a time of the flow that has an infinitesimal map as its velocity.
+/// The flow of an infinitesimal map at a given time.
 inline Affine_map_3 flow(const Infinitesimal_map_3& velocity, double time) {
   Eigen::Matrix4d generator = Eigen::Matrix4d::Zero();
   generator.topLeftCorner<3, 3>() = time * velocity.matrix;
@@ -80,7 +79,7 @@ inline Affine_map_3 flow(const Infinitesimal_map_3& velocity, double time) {
   return {map.topLeftCorner<3, 3>(), map.topRightCorner<3, 1>()};
 }
 
-/// The maps of a kind whose velocity at all points is tangent, to within a tolerance beside the largest velocity.
+/// The maps of a kind whose velocities are tangent at all points, to within a tolerance relative to the largest one.
 inline Affine_slippage_3 slippage_of(const Framed_surface_3& surface, Map_kind kind, double tolerance) {
   std::vector<Eigen::Vector3d> normals;
   for (const Eigen::Vector3d& p : surface.probes) normals.push_back(surface.refinement.distance(p).normal);

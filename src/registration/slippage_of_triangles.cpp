@@ -20,7 +20,7 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// The points of a piece after a motion, with their distances from the piece; NaN where they left it across its border.
+/// The points of a piece after a motion, with their distances from the piece; NaN if they crossed its border.
 std::vector<Mapped_point> points_after(const Affine_map_3& motion, const Piece_of_surface_3& piece, double tolerance) {
   std::vector<Mapped_point> result;
   for (const Eigen::Vector3d& p : piece.samples().points) {
@@ -33,7 +33,7 @@ std::vector<Mapped_point> points_after(const Affine_map_3& motion, const Piece_o
   return result;
 }
 
-/// The rms of the distances; nothing if fewer than half of the points have one, or one of them is above the tolerance.
+/// The rms distance; nothing if fewer than half of the points have a distance, or one exceeds the tolerance.
 std::optional<double> rms_within(const std::vector<Mapped_point>& points, double tolerance) {
   double sum = 0, count = 0;
   for (const Mapped_point& p : points) {
@@ -45,7 +45,7 @@ std::optional<double> rms_within(const std::vector<Mapped_point>& points, double
   return std::sqrt(sum / count);
 }
 
-/// The velocities at points, one after the other.
+/// The velocities at the points, concatenated.
 Eigen::VectorXd velocities_at(const std::vector<Eigen::Vector3d>& points, const Infinitesimal_map_3& map) {
   Eigen::VectorXd result(3 * Eigen::Index(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -53,9 +53,9 @@ Eigen::VectorXd velocities_at(const std::vector<Eigen::Vector3d>& points, const 
   return result;
 }
 
-/// Tries motions both ways along a velocity, for a piece whose area has centroid 0 and size 1. Returns the larger rms
-/// distance, or nothing if it does not slide. Changes the velocity by least squares, since facets tell the direction of
-/// a smooth surface worse than its place.
+/// Tries motions in both directions along a velocity, for a piece with centroid 0 and size 1. Returns the larger rms
+/// distance, or nothing if the piece does not slide. Corrects the velocity by least squares, since facets determine the
+/// normals of a smooth surface less accurately than its position.
 std::optional<double> rms_of_sliding(Infinitesimal_map_3& velocity, const Piece_of_surface_3& piece, Map_kind kind,
                                      double length, double tolerance) {
   constexpr int most_steps = 4;
@@ -80,9 +80,9 @@ std::optional<double> rms_of_sliding(Infinitesimal_map_3& velocity, const Piece_
 
 } // namespace
 
-/// The velocities that normals of the triangles allow are tried by motions of finite length: they may move no point
-/// further off than the facets are off a smooth surface. The facets of a solid with corners are its faces, and explain
-/// no distance.
+/// Velocities compatible with the normals of the triangles are tested by finite motions, which may not move a point
+/// farther off than the facets deviate from a smooth surface. The facets of a solid with corners are its faces, so they do
+/// not explain any distance.
 Affine_slippage_3 slippage_of_triangles(bool in_threads, const Triangles_3& mesh, Map_kind kind) {
   constexpr double greatest_rms = 0.2, factor = 3; // the factor for regular triangles on a sphere is 8 / 3
   const Moments_3 area = area_moments(mesh);

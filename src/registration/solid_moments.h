@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The moments of the solid that a mesh bounds, for meshes with holes and contradicting orientations.
+// The moments of the solid bounded by a mesh, which may have holes and inconsistent orientations.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_SOLID_MOMENTS_H
 #define EQUIAFFINE_SRC_REGISTRATION_SOLID_MOMENTS_H
 
@@ -19,8 +19,8 @@
 
 namespace equiaffine::internal {
 
-/// The moments of what the components of a mesh bound, which affine maps carry along, whichever way facets are
-/// oriented.
+/// The moments of the solids bounded by the components of a mesh. They are equivariant under affine maps, and do not
+/// depend on the orientations of the facets.
 class Solid_moments {
 public:
   Solid_moments(const Triangles_3& mesh, const std::vector<Edge_of_triangle>& edges)
@@ -28,8 +28,8 @@ public:
     orient();
   }
 
-  /// Returns the moments with holes closed by fans of triangles, if that changes the shape of the solid by less than a
-  /// tolerance. Nothing if it changes it more, or there is no solid.
+  /// Returns the moments with holes closed by fans of triangles; nothing if that changes the shape of the solid by more
+  /// than a tolerance, or if there is no solid.
   std::optional<Moments_3> moments(const Eigen::Vector3d& origin, double tolerance) const {
     const auto open = sums(origin, false), closed = sums(origin, true);
     if (!(closed.measure > 0) || closed.covariance.llt().info() != Eigen::Success) return std::nullopt;
@@ -46,7 +46,7 @@ private:
     return a == b || b == c || c == a;
   }
 
-  /// Turns triangles to the side of their neighbors over edges of two triangles, component by component.
+  /// Orients the triangles of each component consistently across edges with two triangles.
   void orient() {
     struct Neighbor {
       std::uint32_t triangle;
@@ -87,7 +87,7 @@ private:
     return is_turned_[t] ? std::array{a, c, b} : std::array{a, b, c};
   }
 
-  /// The sums of the components, each with a positive volume.
+  /// The sums over the components, each taken with positive volume.
   Moments_3 sums(const Eigen::Vector3d& origin, bool with_fans) const {
     std::vector<Moment_sums_3> parts(components_, Moment_sums_3(origin));
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -100,9 +100,9 @@ private:
     return all.moments();
   }
 
-  /// Adds a fan from the centroid of each connected border of a component to its edges.
+  /// Closes each border of a component by a fan of triangles around its centroid.
   void add_fans(std::vector<Moment_sums_3>& parts) const {
-    std::map<std::array<std::uint32_t, 3>, int> excess; // of a directed edge of a component over the reverse one
+    std::map<std::array<std::uint32_t, 3>, int> excess; // of a directed edge of a component over its reverse
     const auto is_forward = [&](const Edge_of_triangle& e) { return e.is_forward != is_turned_[e.triangle]; };
     for (std::size_t i = 0, next = 0; i < edges_.size(); i = next) {
       while (next < edges_.size() && edges_[next].ends == edges_[i].ends) ++next;

@@ -43,7 +43,7 @@ Fit_of_surface fit_to(const Surface_data_3& data, const Fit_options& options) tr
   throw Input_error::about("fit." + error.field(), error.sentence());
 }
 
-/// The fit where samplers need it.
+/// The fit as samplers need it.
 Fit_of_surface placed_fit(const Surface_data_3& data, const Fit_options& options) {
   const Fit_of_surface fit = fit_to(data, options);
   const CGAL::Bbox_3 box = widened_box(data.mesh.points);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits a surface to data that are to be registered or searched for symmetries.
+// Fits a surface to data for registration or for symmetries.
 #ifndef EQUIAFFINE_SRC_REGISTRATION_SURFACE_OF_DATA_H
 #define EQUIAFFINE_SRC_REGISTRATION_SURFACE_OF_DATA_H
 
@@ -8,13 +8,13 @@
 
 namespace equiaffine::internal {
 
-/// What a surface that is fitted to data is needed for.
+/// The purpose of a fitted surface.
 enum class Use_of_surface {
-  REGISTRATION, ///< it can be made at other scales, if the data choose the scale
-  SYMMETRIES    ///< points without faces become a mesh
+  REGISTRATION, ///< it can be refitted at other scales if the data choose the scale
+  SYMMETRIES    ///< points without faces are meshed
 };
 
-/// Makes the surface of a fit to data, which have to outlive it. Throws `Input_error` about the member `fit`.
+/// Makes the surface of a fit to data, which must outlive it. Throws `Input_error` about the member `fit`.
 Surface_to_register surface_of_data(bool in_threads, const Surface_data_3& data, const Fit_options& options,
                                     Use_of_surface use);
 

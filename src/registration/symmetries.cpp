@@ -31,8 +31,8 @@ bool has_finite_group(const Affine_symmetries_3<Kernel_of_searches>& result) {
   return result.continuous.dimension() == 0 || !result.levels.empty();
 }
 
-/// Sets the maps to within the tolerance: those of the last level that is, or without a tolerance, of the first level
-/// that a verdict stands for. They are all there are unless another map is within the tolerance, too.
+/// Selects the maps: those of the last level within the tolerance or, without a tolerance, of the first level with a
+/// verdict. They are all symmetries unless another map is also within the tolerance.
 void choose_maps(Affine_symmetries_3<Kernel_of_searches>& result, std::optional<double> tolerance,
                  const Centered_symmetries& found) {
   result.maps = {symmetry({}, 0, 0)};
@@ -52,7 +52,7 @@ void choose_maps(Affine_symmetries_3<Kernel_of_searches>& result, std::optional<
   if (!result.is_decided) result.verdict = Symmetry_verdict::UNDECIDED;
 }
 
-/// Converts what was found to the types of CGAL. Distances of maps are in the unit of the surface.
+/// Converts the result to the types of CGAL. Distances of maps are in the unit of the surface.
 Affine_symmetries_3<Kernel_of_searches> to_CGAL(const Centered_symmetries& found, const Centered_surface_3& surface) {
   const double unit = surface.own.size;
   const Affine_map_3 back = surface.map.inverse();
@@ -72,8 +72,8 @@ Affine_symmetries_3<Kernel_of_searches> to_CGAL(const Centered_symmetries& found
   return result;
 }
 
-/// Returns maps that are a group to within some tolerances, changed so that their products are right; nothing if they
-/// are none.
+/// Corrects maps that are a group to within tolerances so that their products are exact; returns nothing if they are not
+/// a group.
 std::optional<std::vector<Affine_map_3>> nearby_group(std::vector<Affine_map_3> maps, const Framed_surface_3& surface,
                                                       double tolerance) {
   constexpr double least = 1e-3, tolerances = 30;
@@ -86,8 +86,8 @@ std::optional<std::vector<Affine_map_3>> nearby_group(std::vector<Affine_map_3> 
   return group->maps;
 }
 
-/// The group that frames of a fit give, which are symmetries to within the tolerance of at least 98 % of the points. A
-/// fit has errors, so that the identity alone is no result.
+/// The group found by the frames of a fit: symmetries to within the tolerance at 98 % of the points or more. Since a fit
+/// has errors, the identity alone is not a result.
 Affine_symmetries_3<Kernel_of_searches> symmetries_by_frames(bool in_threads, const Framed_surface_3& surface,
                                                              const Symmetry_options& options, double tolerance) {
   Symmetry_search search(in_threads, surface, options.kind, tolerance);
@@ -98,7 +98,7 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_by_frames(bool in_threads, co
   const auto group = nearby_group(std::move(found), surface, tolerance);
   if (!group) {
     result.maps = {symmetry({}, 0, 0)};
-    result.reason = "maps that move the fit onto itself to within its errors are no group";
+    result.reason = "the maps that move the fit onto itself to within its errors do not form a group";
     return result;
   }
   std::vector<Checked_symmetry> maps;
@@ -109,13 +109,13 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_by_frames(bool in_threads, co
     result.verdict = Symmetry_verdict::APPROXIMATE;
     result.levels.push_back(std::move(level));
   } else {
-    result.reason = "the curvatures of the fit are too uncertain for their frames to find all symmetries";
+    result.reason = "the curvatures of the fit are too uncertain to find all symmetries from their frames";
   }
   result.is_decided = result.verdict != Symmetry_verdict::UNDECIDED;
   return result;
 }
 
-/// Says of a group that frames gave how far a search of all rotations went, and whether it found the same group.
+/// Compares a group found by frames with a search of all rotations, and states how far that search went.
 void check_by_rotations(const Affine_symmetries_3<Kernel_of_searches>& all,
                         Affine_symmetries_3<Kernel_of_searches>& by_frames) {
   by_frames.complete_to = all.complete_to;
@@ -141,8 +141,8 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_by_rotations(bool in_threads,
   return result;
 }
 
-/// The continuous symmetries by the velocities at the probes, to rounding if there are some, else to within the
-/// tolerance.
+/// The continuous symmetries from the velocities at the probes: exact to rounding if there are any, otherwise to within
+/// the tolerance.
 void find_continuous(const Framed_surface_3& surface, const Symmetry_options& options, bool is_exact,
                      Affine_symmetries_3<Kernel_of_searches>& result) {
   const double tolerance = std::max(options.tolerance.value_or(0), slippage_tolerance);
@@ -157,8 +157,8 @@ void find_continuous(const Framed_surface_3& surface, const Symmetry_options& op
   result.reason.clear();
 }
 
-/// Keeps the continuous symmetries of an exact function if motions of finite length confirm them at all points of the
-/// check. If they do not, those which more points allow are tried. Returns whether none is left.
+/// Keeps the continuous symmetries of an exact function if finite motions confirm them at all check points. Otherwise
+/// tries those compatible with more points. Returns whether none is left.
 bool has_refuted_continuous(bool in_threads, Framed_surface_3 surface, const Symmetry_check& check,
                             const Symmetry_options& options, Affine_symmetries_3<Kernel_of_searches>& result) {
   constexpr int attempts = 3, most_steps = 20;
@@ -169,7 +169,7 @@ bool has_refuted_continuous(bool in_threads, Framed_surface_3 surface, const Sym
                            moved.rms <= options.tolerance.value_or(Default_tolerances::function) * check.size()))
       return false;
     if (attempt + 1 == attempts) break;
-    // Details that the probes have missed are at the points of the check, or where motions end off the surface.
+    // Details missed by the probes are at the check points, or where motions end off the surface.
     if (attempt == 0) surface.probes.insert(surface.probes.end(), check.points().begin(), check.points().end());
     for (const Eigen::Vector3d& p : moved.off)
       if (const Eigen::Vector3d foot = surface.refinement.moved_to_surface(p, most_steps);
@@ -183,7 +183,7 @@ bool has_refuted_continuous(bool in_threads, Framed_surface_3 surface, const Sym
   return true;
 }
 
-/// The finite symmetries of an exact function whose points with frames are those of a surface.
+/// The finite symmetries of an exact function, by points with frames of its surface.
 Affine_symmetries_3<Kernel_of_searches> symmetries_of_exact_function(bool in_threads, const Any_function_3& function,
                                                                      const Framed_surface_3& surface,
                                                                      const std::vector<Eigen::Vector3d>& points,
@@ -210,14 +210,14 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(bool in_threads, 
                                                                const Symmetry_options& options) {
   const Any_function_3& function = given.function;
   const auto points = vectors_of(given.mesh.points);
-  check_argument(!points.empty(), "a surface whose symmetries are sought has no points: give points on it");
+  check_argument(!points.empty(), "the surface has no points: pass points on it");
   const Framed_function_3 framed(function);
   const Framed_surface_3 surface = framed_surface(in_threads, framed, framed, points, options.kind);
   const double infinity = std::numeric_limits<double>::infinity(), distance = surface.probes.empty() ? infinity : 0;
   Affine_symmetries_3<Kernel_of_searches> result;
   result.maps = {symmetry({}, distance, distance)};
   result.kind = options.kind;
-  result.reason = "the surface is beside all of the points";
+  result.reason = "the fit has no surface near any of the points";
   if (surface.probes.empty()) return result;
   const bool is_exact = has_exact_frames(surface);
   const double tolerance = options.tolerance.value_or(Default_tolerances::function);
@@ -232,14 +232,14 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_of_function(bool in_threads, 
     result.is_decided = false;
     result.verdict = Symmetry_verdict::UNDECIDED;
     result.reason =
-        "the surface slides over itself near each point that was tried, but motions move some points off it";
+        "the surface slides over itself near each sampled point, but the motions move some points off it";
   }
   return result;
 }
 
 Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles(bool in_threads, const Triangles_3& mesh,
                                                                 const Symmetry_options& options) {
-  check_argument(!mesh.triangles.empty(), "a mesh whose symmetries are sought has no faces: give faces");
+  check_argument(!mesh.triangles.empty(), "the mesh has no faces: pass faces");
   Centered_surface_3 surface = centered_surface(mesh, options.kind);
   Map_kind kind = options.kind;
   if (!surface.reason_against.empty() && !keeps_angles(kind)) {
@@ -256,7 +256,7 @@ Affine_symmetries_3<Kernel_of_searches> symmetries_of_triangles(bool in_threads,
 
 namespace {
 
-/// How far symmetries may move points from a surface of that origin if the user does not say it.
+/// The default tolerance of symmetries for a surface of that origin.
 std::optional<double> default_tolerance(Surface_origin origin) {
   switch (origin) {
   case Surface_origin::FUNCTION: return std::nullopt;
@@ -265,7 +265,7 @@ std::optional<double> default_tolerance(Surface_origin origin) {
   }
 }
 
-/// What may find more symmetries where only the identity was found, or nothing was decided, the most promising first.
+/// What to try if only the identity was found or nothing was decided, the most promising first.
 std::vector<Registration_advice> advice_for_symmetries(const Affine_symmetries_3<Kernel_of_searches>& found,
                                                        Surface_origin origin, const Symmetry_options& options) {
   using enum Registration_advice;

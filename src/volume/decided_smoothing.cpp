@@ -17,7 +17,7 @@ namespace {
 
 using Spline = Spline_function_3<Kernel_of_samples>;
 
-/// Calls f(node, sample) for the nodes of a volume.
+/// Calls f(node, sample) for all nodes of a volume.
 template <class F>
 void for_each_node(const Volume_view& volume, const F& f) {
   const auto [nx, ny, nz] = volume.lattice().size();
@@ -29,8 +29,8 @@ void for_each_node(const Volume_view& volume, const F& f) {
     }
 }
 
-/// Whether a spline has on the same side of a level less than nine tenths of the samples that are on the rarer side of
-/// it; judged by some of them.
+/// Whether a spline keeps fewer than nine tenths of the rarer samples of a mask on their side of the level, judged by
+/// a subset of them.
 bool erases_mask(const Spline& spline, const Volume_view& mask, double level) {
   constexpr std::size_t enough = 1000;
   std::array<std::size_t, 2> sizes{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where noise is measured: nodes beside a level set, the same however a volume is cut into parts.
+// The nodes near a level set at which noise is measured, independent of the partition of the volume.
 #ifndef EQUIAFFINE_SRC_VOLUME_NODES_TO_MEASURE_H
 #define EQUIAFFINE_SRC_VOLUME_NODES_TO_MEASURE_H
 
@@ -29,14 +29,14 @@ using Volume_view = Volume_view_3<Kernel_of_samples>;
 using Volume_parts = Volume_parts_3<Kernel_of_samples>;
 
 /// Finds the nodes of a block that have a value and, if there is an isovalue, a next node along an axis on the other
-/// side: the nodes (i, j, k) of cells (i, j, k). A row of nodes is a row of words with a bit for each node.
+/// side: the nodes (i, j, k) of cells (i, j, k). Each row of nodes is a bit set in 64-bit words.
 class Nodes_beside_level_set {
   using Word = std::uint64_t;
 
 public:
   Nodes_beside_level_set(const Volume_view& volume, std::optional<double> isovalue, const Cell_block& block)
       : isovalue_(isovalue), block_(block), words_((block.end[0] - block.first[0]) / 64 + 1) {
-    const std::size_t nodes = block.end[0] - block.first[0] + 1; // one more than is asked for, along each axis
+    const std::size_t nodes = block.end[0] - block.first[0] + 1; // one more than the cells, along each axis
     planes_.resize(block.end[2] - block.first[2] + 1);
     std::vector<double> samples(nodes * planes_.size());
     for (std::size_t j = block.first[1]; j <= block.end[1]; ++j) {
@@ -47,8 +47,8 @@ public:
     }
   }
 
-  /// Calls visit(j, k, row) for all rows, where row[w] has the bits of the nodes 64 w to 64 w + 63 from the first one
-  /// on.
+  /// Calls visit(j, k, row) for all rows, where row[w] has the bits of the nodes 64 w to 64 w + 63, counted from the
+  /// first node of the block.
   template <class Visit>
   void for_each_row(const Visit& visit) const {
     const std::size_t nodes = block_.end[0] - block_.first[0], rows = block_.end[1] - block_.first[1];
@@ -68,7 +68,7 @@ public:
   }
 
 private:
-  /// The words of a plane say of its nodes whether values are finite, and whether they are below the isovalue.
+  /// For each node of a plane, whether its value is finite, and whether it is below the isovalue.
   struct Plane {
     std::vector<Word> finite, below;
   };
@@ -93,8 +93,8 @@ private:
   std::vector<Plane> planes_;
 };
 
-/// A number that looks random for each node of a lattice, and is the same whatever part of the lattice is looked at
-/// (Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014).
+/// A pseudorandom number for each node of a lattice, independent of the partition of the lattice (Steele, Lea, Flood,
+/// Fast splittable pseudorandom number generators, 2014).
 inline std::uint64_t random_number_of(const std::array<std::size_t, 3>& node, const std::array<std::size_t, 3>& size) {
   std::uint64_t x = (std::uint64_t(node[2]) * size[1] + node[1]) * size[0] + node[0] + 1;
   x *= 0x9e3779b97f4a7c15;
@@ -103,21 +103,20 @@ inline std::uint64_t random_number_of(const std::array<std::size_t, 3>& node, co
   return x ^ (x >> 31);
 }
 
-/// \throw std::invalid_argument unless the samples are known at the nodes of some cells
+/// \throw std::invalid_argument unless the samples at the nodes of the needed cells are known
 inline void check_known_cells(const Volume_view& volume, const Cell_block& needed) {
   check_argument(clamped(needed, volume.cells()) == needed,
-                 "a part of a volume has not all samples around its cells that noise and smoothing are measured with: "
-                 "give it more of them, see cells_to_know()");
+                 "a part of a volume lacks samples around its cells that are needed to measure noise or to choose the "
+                 "smoothing: provide more of them, see cells_to_know()");
 }
 
-/// Nodes of each part of a volume that is known here.
+/// Nodes of each part of a volume that this process has.
 using Nodes_of_parts = std::vector<std::vector<std::array<std::size_t, 3>>>;
 
-/// Blocks of few planes of the cells of each part, where they are at least `margin` nodes from the border of the
-/// volume.
+/// The cells of each part that are at least `margin` nodes from the border of the volume, in blocks of a few planes.
 inline std::vector<std::pair<std::size_t, Cell_block>> blocks_of_planes(const Volume_parts& volume,
                                                                         std::size_t margin) {
-  constexpr std::size_t planes_at_once = Volume_view::planes_at_once; // of which one more is read
+  constexpr std::size_t planes_at_once = Volume_view::planes_at_once; // one more plane is read
   std::vector<std::pair<std::size_t, Cell_block>> blocks;
   for (std::size_t p = 0; p < volume.parts.size(); ++p) {
     Cell_block cells = volume.parts[p].cells;
@@ -136,9 +135,9 @@ inline std::vector<std::pair<std::size_t, Cell_block>> blocks_of_planes(const Vo
   return blocks;
 }
 
-/// Some hundred or thousand nodes where noise matters and can be measured: about `most` of those beside the level set,
-/// chosen at random, or of all if no isovalue is given or nothing has it; all at least `margin` >= 1 nodes from the
-/// border.
+/// A few hundred or thousand nodes at which noise matters and can be measured: about `most` nodes near the level set,
+/// chosen at random, or among all nodes if there is no isovalue or the level set is empty. All are at least `margin`
+/// >= 1 nodes from the border.
 inline Nodes_of_parts nodes_to_measure(bool in_threads, const Volume_parts& volume, std::optional<double> isovalue,
                                        std::size_t margin, std::size_t most) {
   const std::array<std::size_t, 3>& size = volume.lattice.size();

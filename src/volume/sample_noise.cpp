@@ -25,7 +25,7 @@ namespace equiaffine::internal {
 
 namespace {
 
-/// The least |x| that at least the given fraction of all |x| do not exceed; 0 if there are none.
+/// The smallest |x| that at least the given fraction of all |x| do not exceed; 0 if there are none.
 double quantile_of_magnitudes(std::vector<double> values, double fraction) {
   if (values.empty()) return 0;
   for (double& x : values) x = std::abs(x);
@@ -38,8 +38,8 @@ double median_magnitude(std::vector<double> values) { return quantile_of_magnitu
 /// The quantiles of |x| for a normal variable x, over its standard deviation.
 constexpr double median_over_deviation = 0.67448975019608174, quantile_80_over_deviation = 1.2815515655446004;
 
-/// The step of the samples' type, judged by some 65536 of them: 1 if all are integers, the step between floats of
-/// median size if all are floats, else 0.
+/// The resolution of the samples' type, judged by about 65536 of them: 1 if all are integers, the spacing of floats
+/// of median size if all are floats, else 0.
 double quantum_of(const Volume_parts& volume) {
   const std::array<std::size_t, 3>& size = volume.lattice.size();
   const std::size_t nodes = volume.lattice.number_of_nodes(), step = nodes / 65536 + 1;
@@ -63,7 +63,7 @@ double quantum_of(const Volume_parts& volume) {
   return median_magnitude(std::move(finite)) * double(std::numeric_limits<float>::epsilon());
 }
 
-/// The standard deviation of white noise at some nodes, each at least 6 nodes from the border: from the median of the
+/// The standard deviation of white noise at some nodes, each at least 6 nodes from the border, from the median of the
 /// differences of order 12 along the axes.
 double white_noise_deviation(const Volume_parts& volume, const Nodes_of_parts& nodes) {
   constexpr std::array<double, 7> half = {924, -792, 495, -220, 66, -12, 1}; // binomial(12, k), signs alternating
@@ -84,8 +84,8 @@ double white_noise_deviation(const Volume_parts& volume, const Nodes_of_parts& n
   return median_magnitude(volume.gather(std::move(differences))) / median_over_deviation;
 }
 
-/// Measures a spline through smoothed samples in the middle of cells, without fitting it: its value and its fourth
-/// derivatives along x, y and z, in lattice coordinates, are weighted sums of the samples around the cell.
+/// Measures the spline through smoothed samples in the middle of cells without computing it: its value and its fourth
+/// derivatives along x, y, and z, in lattice coordinates, are weighted sums of the samples around the cell.
 class Spline_probe {
 public:
   using Cell = std::array<std::size_t, 3>;
@@ -97,7 +97,7 @@ public:
     }
   }
 
-  /// The value and the fourth derivatives along x, y and z.
+  /// The value and the fourth derivatives along x, y, and z.
   std::array<double, 4> measure(const Volume_view& volume, const Cell& cell) const {
     std::vector<double> samples(weights_[0][cell[0]].value.size());
     const Weights &y = weights_[1][cell[1]], &z = weights_[2][cell[2]];
@@ -125,8 +125,8 @@ public:
     double value, derivative;
   };
 
-  /// The covariances of what this probe and another one measure in a cell, if the samples are white noise of standard
-  /// deviation 1.
+  /// The covariances of the measurements of this probe and another one in a cell, if the samples are white noise of
+  /// standard deviation 1.
   Pair covariance(const Spline_probe& other, const Cell& cell) const {
     Pair result{1, 1};
     for (std::size_t a = 0; a < 3; ++a) {
@@ -137,7 +137,7 @@ public:
     return result;
   }
 
-  /// The variances of the difference between what this probe and another one measure, for the same noise.
+  /// The variances of the difference between the measurements of this probe and another one under the same noise.
   Pair variance_of_difference(const Spline_probe& other, const Cell& cell) const {
     const Pair p = covariance(*this, cell), q = other.covariance(other, cell), pq = covariance(other, cell);
     return {std::max(0.0, p.value + q.value - 2 * pq.value),
@@ -145,8 +145,8 @@ public:
   }
 
 private:
-  /// The weights of the samples along an axis, for the value and for the fourth derivative. Samples before `first` and
-  /// after the last one have no influence.
+  /// The weights of the samples along an axis, for the value and for the fourth derivative. Samples outside the range
+  /// have weight 0.
   struct Weights {
     explicit Weights(const typename Line_functionals<double>::Rows& rows) {
       const auto is_used = [&](std::size_t j) { return rows[0][j] != 0 || rows[4][j] != 0; };
@@ -159,11 +159,11 @@ private:
       }
     }
 
-    std::size_t first = 0; // in the line that represents this one
+    std::size_t first = 0; // in the representative line
     std::vector<double> value, derivative;
   };
 
-  /// The value and the fourth derivative of a line along x, from its first sample that is used.
+  /// The value and the fourth derivative of a line along x, from its first sample with a weight.
   Pair measure_line(const std::vector<double>& samples, std::size_t cell) const {
     const Weights& x = weights_[0][cell];
     Pair sum{0, 0};
@@ -174,7 +174,7 @@ private:
     return sum;
   }
 
-  /// The sums of products of weights of this probe and the other one, over the samples of a line that both use.
+  /// The sums of products of the weights of this probe and the other one, over the samples of a line that both use.
   Pair covariance_along(std::size_t a, const Spline_probe& other, const Cell& cell) const {
     const Weights &p = weights_[a][cell[a]], &q = other.weights_[a][cell[a]];
     const std::size_t first_p = first(a, cell), first_q = other.first(a, cell);
@@ -187,7 +187,7 @@ private:
     return sum;
   }
 
-  /// The first sample that is used along an axis.
+  /// The first sample with a weight along an axis.
   std::size_t first(std::size_t a, const Cell& cell) const {
     return weights_[a][cell[a]].first + weights_[a].offset_from_representative(cell[a]);
   }
@@ -195,14 +195,14 @@ private:
   std::array<Per_kind_of_cell<Weights>, 3> weights_;
 };
 
-/// The cells in which scales of smoothing are compared, and the standard deviation of the noise in the samples.
+/// The cells in which smoothing scales are compared, and the standard deviation of the noise in the samples.
 class Smoothing_test_site {
 public:
   using Cell = std::array<std::size_t, 3>;
 
   using Numbers = std::array<double, 4>;
 
-  /// The cells are those of each part that is known here. All processes get all of them.
+  /// `cells` are those of each part that this process has. All processes gather all of them.
   Smoothing_test_site(const Volume_parts& volume, const Nodes_of_parts& cells, double deviation)
       : volume_(volume), own_cells_(cells), deviation_(deviation) {
     const auto cells_and_slopes = measure([](const Volume_view& samples, const Cell& cell) -> Numbers {
@@ -218,12 +218,12 @@ public:
     }
   }
 
-  const std::array<std::size_t, 3>& size() const { return volume_.lattice.size(); } ///< the numbers of nodes
+  const std::array<std::size_t, 3>& size() const { return volume_.lattice.size(); } ///< number of nodes along each axis
   const std::vector<Cell>& cells() const { return cells_; }
   const std::vector<double>& slopes() const { return slopes_; } ///< of the samples in each cell, per step
   double deviation() const { return deviation_; }
 
-  /// Returns the numbers that measure_cell(samples, cell) finds, for all cells in their order.
+  /// Returns the results of measure_cell(samples, cell) for all cells in their order.
   template <class Measure_cell>
   std::vector<Numbers> measure(const Measure_cell& measure_cell) const {
     std::vector<double> own;
@@ -239,7 +239,7 @@ public:
     return result;
   }
 
-  /// The number of the first process: others may have rounded differently, and must decide as it does.
+  /// The number of the first process: the others may have rounded differently but must make the same decision.
   double agreed(double number) const { return volume_.gather({number}).front(); }
 
 private:
@@ -250,7 +250,7 @@ private:
   std::vector<double> slopes_;
 };
 
-/// A scale of smoothing, tried at a test site: value and fourth derivatives of the spline in each of its cells.
+/// A smoothing scale tried at a test site: value and fourth derivatives of the spline in each of its cells.
 class Smoothing_trial {
 public:
   using Site = Smoothing_test_site;
@@ -260,15 +260,15 @@ public:
         site.measure([&](const Volume_view& samples, const auto& cell) { return probe_.measure(samples, cell); });
   }
 
-  /// The number of cells in which the spline has a value: there is no sample that is not finite in their windows.
+  /// The number of cells in which the spline has a value, because all samples in their windows are finite.
   std::size_t number_of_values() const {
     return std::size_t(
         std::count_if(measured_.begin(), measured_.end(), [](const auto& cell) { return std::isfinite(cell[0]); }));
   }
 
-  /// Whether this scale moves the surface that `unsmoothed` has: in more than a tenth of the cells the value changes by
-  /// more than hypot(two standard deviations of the change that noise explains, the slope times a tenth of a voxel), or
-  /// there is none any more.
+  /// Whether this scale moves the surface of `unsmoothed`: in more than a tenth of the cells there is no value any
+  /// more, or it changes by more than hypot(two standard deviations of the change that noise explains, the slope
+  /// times a tenth of a voxel).
   bool moves_surface(const Smoothing_trial& unsmoothed, const Site& site) const {
     std::size_t compared = 0, moved = 0;
     for (std::size_t n = 0; n < site.cells().size(); ++n) {
@@ -277,12 +277,12 @@ public:
           site.deviation() * std::sqrt(probe_.variance_of_difference(unsmoothed.probe_, site.cells()[n]).value);
       const double change = std::abs(measured_[n][0] - unsmoothed.measured_[n][0]);
       ++compared;
-      moved += !(change <= std::hypot(2 * explained, 0.1 * site.slopes()[n])); // also if there is no value
+      moved += !(change <= std::hypot(2 * explained, 0.1 * site.slopes()[n])); // true also without a value
     }
     return 10 * moved > compared;
   }
 
-  /// The estimated error of fourth derivatives: their standard deviation by noise, and their bias.
+  /// The estimated error of fourth derivatives from their standard deviation under noise and their bias.
   double risk(const Site& site, double bias) const {
     std::vector<double> deviations;
     for (const auto& cell : site.cells())
@@ -290,8 +290,7 @@ public:
     return std::hypot(median_magnitude(std::move(deviations)), bias);
   }
 
-  /// The estimated bias of fourth derivatives: how far they differ from those of the scale before, beyond what noise
-  /// explains.
+  /// The estimated bias of fourth derivatives: their change since the last scale, beyond what noise explains.
   double bias(const Smoothing_trial& last, const Site& site) const {
     std::vector<double> differences, expected;
     for (std::size_t n = 0; n < site.cells().size(); ++n) {
@@ -302,16 +301,17 @@ public:
     }
     const double of_noise = median_magnitude(std::move(expected));
     const double change = quantile_of_magnitudes(std::move(differences), 0.8) / quantile_80_over_deviation;
-    return std::sqrt(std::max(0.0, change * change - 1.5 * of_noise * of_noise)); // 1.5, as both are uncertain
+    return std::sqrt(std::max(0.0, change * change - 1.5 * of_noise * of_noise)); // 1.5 because both are uncertain
   }
 
 private:
   Spline_probe probe_;
-  std::vector<typename Site::Numbers> measured_; ///< the numbers of the probe in each cell
+  std::vector<typename Site::Numbers> measured_; ///< the measurements of the probe in each cell
 };
 
-/// The scale with the least risk at a site; `rule` says how samples become a spline without smoothing. Scales are tried
-/// in increasing order up to the first one that moves the surface or whose window does not fit into the volume.
+/// The scale with the least risk at a site, for the rule that turns samples into a spline without smoothing. Scales
+/// are tried in increasing order up to the first one that moves the surface or whose window does not fit into the
+/// volume.
 double least_risky_scale(const Smoothing_test_site& site, Spline_rule<double> rule) {
   using Trial = Smoothing_trial;
   const std::size_t shortest = *std::min_element(site.size().begin(), site.size().end());
@@ -352,7 +352,7 @@ double smoothing_of_samples(bool in_threads, const Volume_parts& volume, const S
                             const Volume_options& options) {
   const int degree = options.spline_degree;
   const Spline_scheme scheme = options.spline_scheme == Spline_scheme::INTERPOLATION
-                                   ? Spline_scheme::QUASI_INTERPOLATION // the same but for its reach
+                                   ? Spline_scheme::QUASI_INTERPOLATION // the same except for its reach
                                    : options.spline_scheme;
   const auto& size = volume.lattice.size();
   if (*std::min_element(size.begin(), size.end()) <= std::size_t(degree)) return 0;

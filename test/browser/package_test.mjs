@@ -91,7 +91,7 @@ for (const wrong of [{resolution: 5000}, {resolution: 2 ** 32 + 10}, {resolution
   const unknown = steps.attributes.affine_gaussian_curvature_error.filter((error, k) => !(error < Math.abs(K[k]) / 2)).length;
   assert(unknown > K.length / 2, 'K of a mask is unknown at most vertices');
   const bomb = Buffer.concat([Buffer.from('NRRD0004\ntype: double\ndimension: 3\nsizes: 3000 3000 3000\nencoding: gzip\n\n')]);
-  await assert.rejects(readVolume('bomb.nrrd', bomb), /up to 16777216 can be sampled/);
+  await assert.rejects(readVolume('bomb.nrrd', bomb), /at most 16777216 can be sampled/);
 }
 {
   const bytes = new TextEncoder().encode('OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n');

@@ -59,7 +59,8 @@ TEST(Trust, a_sentence_says_which_numbers_are_unknown_at_most_vertices) {
   attributes.columns = {gaussian, affine, errors({0.1, 5, 7})};
   const std::vector<std::string> sentences = sentences_of_doubt(attributes);
   ASSERT_EQ(sentences.size(), 1u);
-  EXPECT_EQ(sentences[0], "Affine Gaussian curvature is unknown at 67 % of the vertices: error above half of its size");
+  EXPECT_EQ(sentences[0],
+            "Affine Gaussian curvature is unknown at 67 % of the vertices: its error exceeds half its size");
   attributes.columns.back() = errors({0.1, 0.1, 7});
   EXPECT_TRUE(sentences_of_doubt(attributes).empty());
 }

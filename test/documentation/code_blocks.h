@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the text of the pages says that there is already, for code_blocks.py, and all public headers together.
-// Nothing is defined, since nothing is linked.
+// Declarations that code on the pages assumes, for code_blocks.py, and all public headers. There are no definitions,
+// since nothing is linked.
 #ifndef CGAL_LINKED_WITH_TBB // pages use threads
 #define CGAL_LINKED_WITH_TBB
 #endif
@@ -27,7 +27,7 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Vertex = boost::graph_traits<Mesh>::vertex_descriptor;
 
-// A function, and what it is asked at.
+// A function, and points.
 extern const equiaffine::Analytic_function_traits_3<Kernel, equiaffine::analytic_functions::Torus> traits;
 extern const Kernel::Point_3 p;
 extern std::vector<Kernel::Point_3> points;

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Compiles the C++ code of the Markdown files: code_blocks.py ROOT COMPILER [FLAG...].
 
-Every block ```cpp is a function of its own, all in one unit after test/documentation/code_blocks.h, which declares what
-the text around them says that there is, and includes all public headers. Their `#include` lines, classes and
-templates stand before the function. A comment `<!-- needs CGAL 6.1 -->` on the line before a block leaves it out with
-an older CGAL. The compiler names the page and its line."""
+Each ```cpp block becomes a function in one translation unit, after test/documentation/code_blocks.h, which includes all
+public headers and declares the variables that the pages assume. `#include` lines, classes and templates of a block are
+moved before its function. A comment `<!-- needs CGAL 6.1 -->` on the line before a block excludes it for older versions
+of CGAL. Errors of the compiler refer to the page and its line."""
 import pathlib
 import re
 import subprocess
@@ -21,14 +21,14 @@ DECLARATION = re.compile(r"^(?:template|struct|class|enum|concept)\b(?:[^\n]*;$|
 
 
 def cut(pattern, code):
-    """What the pattern finds in the code, and the rest; each on its lines."""
+    """The parts of the code that match the pattern, and the rest, with unchanged line numbers."""
     rest = pattern.sub(lambda match: "\n" * match[0].count("\n"), code)
     found = "\n".join("" if line == left else line for line, left in zip(code.split("\n"), rest.split("\n")))
     return found, rest
 
 
 def function_of(number, place, code):
-    """The block as C++ at the outermost level of a file; `place` is its `#line`."""
+    """The block as C++ at namespace scope; `place` is its `#line` directive."""
     includes, code = cut(INCLUDE, code)
     declarations, statements = cut(DECLARATION, code)
     return (f"{place}\n{includes}\nnamespace block_{number} {{\n{place}\n{declarations}\n"
@@ -36,7 +36,7 @@ def function_of(number, place, code):
 
 
 def unit_of(root):
-    """(number of blocks, C++ of all)."""
+    """(number of blocks, C++ code of all of them)."""
     blocks = []
     for path in pages(root):
         text = path.read_text()
@@ -49,7 +49,7 @@ def unit_of(root):
 
 
 def find_faults(root, command):
-    """The lines of the compiler's errors that name a page, or any if none does."""
+    """The compiler's error lines that refer to a page, or all of them if none does."""
     preamble = root / "test/documentation/code_blocks.h"
     command = [*command, "-std=c++20", "-fsyntax-only", "-include", str(preamble), "-x", "c++", "-"]
     result = subprocess.run(command, input=unit_of(root)[1], capture_output=True, text=True, check=False)
@@ -61,7 +61,7 @@ if __name__ == "__main__":
     folder = pathlib.Path(sys.argv[1]).resolve()
     count = unit_of(folder)[0]
     if count < 10:
-        sys.exit("there are less than ten blocks of C++")
+        sys.exit("fewer than ten blocks of C++ found; check ROOT")
     found = find_faults(folder, sys.argv[2:])
     print("\n".join(found) or f"{count} blocks of C++ compile")
     sys.exit(bool(found))

@@ -15,7 +15,7 @@ extern int given;
 
 class CodeBlocks(unittest.TestCase):
     def faults(self, *blocks):
-        """Of a checkout whose README has these blocks, each after an empty line and the line ```cpp."""
+        """The faults in a checkout whose README contains these blocks, each after an empty line and the line ```cpp."""
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             (root / "test/documentation").mkdir(parents=True)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Says which relative links of the Markdown files are dead: python3 links.py ROOT.
+"""Finds dead relative links in the Markdown files: python3 links.py ROOT.
 
-A link goes to a file or a folder that exists, and its anchor to a heading of that file."""
+A link must lead to an existing file or folder, and its anchor to a heading of this file."""
 import pathlib
 import re
 import sys
@@ -14,13 +14,13 @@ LINK = re.compile(r"\[[^]]*\]\(([^)\s]+)\)")
 
 
 def without_code(text):
-    """The text with its lines, but without what stands in blocks and spans of code."""
+    """The text without blocks and spans of code, with unchanged line numbers."""
     text = re.sub(r"^( *)```.*?^ *```", lambda match: "\n" * match[0].count("\n"), text, flags=re.MULTILINE | re.DOTALL)
     return re.sub(r"(?<!`)`[^`\n]+`(?!`)", "", text)
 
 
 def anchors(path):
-    """The anchors that sites which host code give the headings of a file; equal ones are numbered."""
+    """The anchors of the headings of a file on sites such as GitHub; equal headings are numbered."""
     found = {}
     text = re.sub(r"^( *)```.*?^ *```", "", path.read_text(), flags=re.MULTILINE | re.DOTALL)
     for heading in re.findall(r"^#{1,6} (.*)$", text, re.MULTILINE):
@@ -30,7 +30,7 @@ def anchors(path):
 
 
 def pages(root):
-    """The Markdown files of a checkout, without what was built in it."""
+    """The Markdown files of a checkout, except for build folders."""
     for path in sorted(root.rglob("*.md")):
         folder = path.relative_to(root).parts[0]
         if folder not in NOT_OURS and not folder.startswith("."):
@@ -54,5 +54,5 @@ def find_faults(root):
 
 if __name__ == "__main__":
     found = list(find_faults(pathlib.Path(sys.argv[1])))
-    print("\n".join(found) or "every relative link leads somewhere")
+    print("\n".join(found) or "no dead relative links")
     sys.exit(bool(found))

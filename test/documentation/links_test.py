@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plants dead links in a small checkout."""
+"""Tests links.py with dead links in a small checkout."""
 import pathlib
 import tempfile
 import unittest
@@ -9,7 +9,7 @@ from links import find_faults
 
 class Links(unittest.TestCase):
     def faults(self, readme):
-        """Of a checkout with this README, a page and a picture."""
+        """The faults in a checkout with this README, a page and a picture."""
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             (root / "doc").mkdir()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Says which links of a site in a folder are dead, and what its pages load from elsewhere: python3 site_links.py SITE.
+"""Finds dead links and external resources of a site in a folder: python3 site_links.py SITE.
 
-Every page is read once. LinkChecker reads a page again for each anchor that a link has, ten times as much in sum."""
+Reads each page once, whereas LinkChecker reads a page again for each anchor, ten times as much in total."""
 import html.parser
 import pathlib
 import re
@@ -10,7 +10,7 @@ import urllib.parse
 
 
 class Page(html.parser.HTMLParser):
-    """The anchors of a page, the targets of its links, and what it loads."""
+    """The anchors, the link targets and the loaded resources of a page."""
     def __init__(self, path):
         super().__init__()
         self.anchors, self.links, self.loads = set(), set(), set()
@@ -24,7 +24,7 @@ class Page(html.parser.HTMLParser):
 
 
 class Menu:
-    """The links of the menu, which Doxygen writes into a script."""
+    """The links of the menu, which are in a script of Doxygen."""
     def __init__(self, path):
         self.links, self.loads = set(re.findall(r'url:"([^"]*)"', path.read_text())), set()
 
@@ -50,7 +50,7 @@ def find_faults(site):
 if __name__ == "__main__":
     folder = pathlib.Path(sys.argv[1]).resolve()
     if not (folder / "index.html").is_file():
-        sys.exit(f"there is no index.html in {folder}")
+        sys.exit(f"no index.html in {folder}; run scripts/documentation")
     found = list(find_faults(folder))
-    print("\n".join(found) or "every link of the site leads somewhere")
+    print("\n".join(found) or "no dead links in the site")
     sys.exit(bool(found))

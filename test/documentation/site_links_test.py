@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plants dead links in a small site."""
+"""Tests site_links.py with dead links in a small site."""
 import pathlib
 import tempfile
 import unittest
@@ -9,7 +9,7 @@ from site_links import find_faults
 
 class SiteLinks(unittest.TestCase):
     def faults(self, index, menu=""):
-        """Of a site with this page and another one in a folder."""
+        """The faults in a site with this page and another one in a folder."""
         with tempfile.TemporaryDirectory() as folder:
             site = pathlib.Path(folder)
             (site / "sub").mkdir()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What doc/site_sources.py makes of a small checkout."""
+"""Tests doc/site_sources.py with a small checkout."""
 import os
 import pathlib
 import subprocess

@@ -51,7 +51,7 @@ TEST(Expression_3, a_missing_operator_is_named) {
 }
 
 TEST(Expression_3, an_unknown_name_is_told_with_a_remedy) {
-  const std::string define = "give it a value as a constant, or use x, y, z";
+  const std::string define = "define it as a constant, or use x, y, z";
   expect_error("x + 2*foo", 7, "unknown name 'foo'", define);
   const std::string all = "use one of sqrt cbrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh abs min max "
                           "hypot erf floor sign fmod "
@@ -62,7 +62,7 @@ TEST(Expression_3, an_unknown_name_is_told_with_a_remedy) {
   expect_error("mod(x, 2)", 1, "unknown function 'mod'", "did you mean 'fmod'? Otherwise " + all);
   expect_error("log10(x)", 1, "unknown function 'log10'", "did you mean 'log(...)/log(10)'? Otherwise " + all);
   expect_error("frobnicate(x)", 1, "unknown function 'frobnicate'", all);
-  expect_error("X", 1, "unknown name 'X'", "did you mean 'x'? Otherwise give it a value as a constant, or use x, y, z");
+  expect_error("X", 1, "unknown name 'X'", "did you mean 'x'? Otherwise define it as a constant, or use x, y, z");
   const auto error = error_of("x + radios", {{"radius", 1.0}});
   ASSERT_TRUE(error);
   EXPECT_NE(std::string(error->what()).find("did you mean 'radius'?"), std::string::npos) << error->what();
@@ -90,15 +90,14 @@ TEST(Expression_3, has_no_angle_at_the_origin) {
   EXPECT_TRUE(std::isnan(f.taylor(0., 0., 0.).value()));
   EXPECT_TRUE(std::isnan(f.taylor(0., 1., 0.).value()));
   EXPECT_EQ(f.taylor(1., 0., 0.).value(), 1.);
-  expect_error("x + atan2(0, 0)", 5, "result of 'atan2' that is not a finite number",
-               "check the constants it is applied to");
+  expect_error("x + atan2(0, 0)", 5, "non-finite result of 'atan2'", "check its constant operands");
 }
 
 TEST(Expression_3, parentheses_must_match) {
-  expect_error("2*(x+1", 3, "'(' that is never closed", "add ')'");
-  expect_error("sin(x", 4, "'(' that is never closed", "add ')'");
-  expect_error("((x)", 1, "'(' that is never closed", "add ')'");
-  expect_error("x+1)", 4, "')' that closes nothing", "remove it or add '('");
+  expect_error("2*(x+1", 3, "unclosed '('", "add ')'");
+  expect_error("sin(x", 4, "unclosed '('", "add ')'");
+  expect_error("((x)", 1, "unclosed '('", "add ')'");
+  expect_error("x+1)", 4, "unmatched ')'", "remove it or add '('");
   expect_error("x+()", 4, "unexpected ')'", "a number, a name or '(' is missing before it");
 }
 
@@ -116,9 +115,9 @@ TEST(Expression_3, something_must_stand_on_both_sides_of_an_operator) {
 }
 
 TEST(Expression_3, an_equation_has_one_sign) {
-  expect_error("x = y = z", 7, "second '='", "an equation is lhs = rhs");
-  expect_error("x == y", 4, "second '='", "an equation is lhs = rhs");
-  expect_error("(x = y)", 4, "'=' inside parentheses", "an equation is lhs = rhs");
+  expect_error("x = y = z", 7, "second '='", "write one equation, lhs = rhs");
+  expect_error("x == y", 4, "second '='", "write one equation, lhs = rhs");
+  expect_error("(x = y)", 4, "'=' inside parentheses", "use '=' only between the sides of an equation");
 }
 
 TEST(Expression_3, functions_take_their_number_of_arguments) {
@@ -135,24 +134,25 @@ TEST(Expression_3, characters_outside_the_language_are_refused) {
   const std::string advice = "use names, numbers, ( ) , = and + - * / ^ only";
   expect_error("x % 2", 3, "unexpected '%'", advice);
   expect_error("[x]", 1, "unexpected '['", advice);
-  expect_error("x \xE2\x88\x91 1", 3, "unexpected character that is not ASCII, byte 0xE2", advice);
-  expect_error("x\x01", 2, "unexpected control character byte 0x01", advice);
-  expect_error(std::string("x\0y", 3), 2, "unexpected control character byte 0x00", advice);
-  expect_error("1,5*x", 2, "unexpected ','", "it separates the arguments of a function; decimals have a point");
+  expect_error("x \xE2\x88\x91 1", 3, "unexpected non-ASCII character, byte 0xE2", advice);
+  expect_error("x\x01", 2, "unexpected control character, byte 0x01", advice);
+  expect_error(std::string("x\0y", 3), 2, "unexpected control character, byte 0x00", advice);
+  expect_error("1,5*x", 2, "unexpected ','",
+               "use ',' only between arguments of a function, and '.' in decimal numbers");
 }
 
 TEST(Expression_3, numbers_must_be_in_the_range_of_double) {
-  const std::string advice = "magnitudes from 1e-307 to 1e308 are possible";
+  const std::string advice = "use a magnitude from 1e-307 to 1e308";
   expect_error("x+1e999", 3, "number '1e999' out of range", advice);
   expect_error("1e-999*x", 1, "number '1e-999' out of range", advice);
-  expect_error("x + .", 5, "a point without digits", "write a number such as 0.5");
+  expect_error("x + .", 5, "decimal point without digits", "write a number such as 0.5");
 }
 
 TEST(Expression_3, constant_results_must_be_finite) {
-  const std::string advice = "check the constants it is applied to";
-  expect_error("x+1/0", 4, "result of '/' that is not a finite number", advice);
-  expect_error("x*sqrt(-2)", 3, "result of 'sqrt' that is not a finite number", advice);
-  expect_error("10^400 + x", 3, "result of '^' that is not a finite number", advice);
+  const std::string advice = "check its constant operands";
+  expect_error("x+1/0", 4, "non-finite result of '/'", advice);
+  expect_error("x*sqrt(-2)", 3, "non-finite result of 'sqrt'", advice);
+  expect_error("10^400 + x", 3, "non-finite result of '^'", advice);
 }
 
 TEST(Expression_3, nesting_is_limited_long_before_the_stack_ends) {
@@ -205,13 +205,14 @@ TEST(Expression_3, a_message_is_one_line_of_bounded_length) {
 TEST(Expression_3, a_constant_must_have_a_free_name_and_a_finite_value) {
   for (const std::string name : {"x", "y", "z", "pi", "e", "sin", "pow"})
     EXPECT_EQ(std::string(error_of("x", {{name, 1.0}})->what()),
-              "constant '" + name + "' hides a name that expressions know: choose another name");
+              "the name of constant '" + name + "' is reserved: choose another name");
   for (const std::string name : {"", "2a", "a b", "a+"})
     EXPECT_EQ(std::string(error_of("x", {{name, 1.0}})->what()),
-              "'" + name + "' cannot name a constant: use letters, digits and _, and no digit first");
+              "'" + name +
+                  "' is not a valid name of a constant: use letters, digits and _, and do not start with a digit");
   for (const double number : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
     EXPECT_EQ(std::string(error_of("x", {{"a", number}})->what()),
-              "constant 'a' is not a finite number: give it a finite value");
+              "constant 'a' is not finite: set it to a finite value");
 }
 
 } // namespace Expression_3_errors_test

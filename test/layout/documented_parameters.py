@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Says where the comment of a function and the function differ about named parameters: documented_parameters.py ROOT.
+"""Compares the named parameters of functions with their documentation: documented_parameters.py ROOT.
 
-A function takes the parameters whose tags its call of check_parameters has. Its comment names each of them between
-backticks, or says whose parameters it shares: "The same", "in the place of" and "those of" mean the functions above it
-in the header, and those that it names. A table has rows for no others."""
+A function accepts the parameters whose tags are arguments of its call of check_parameters. Its comment must contain
+each of them in backticks, or refer to other functions: "The same", "in the place of" and "those of" mean the functions
+above it in the header, and those that it names. A table must not have rows for other parameters."""
 import pathlib
 import re
 import sys
@@ -18,7 +18,7 @@ SHARES = re.compile(r"\bThe same\b|[Ii]n the place of|\bthose of\b")
 
 
 def tags_in(text, checkers):
-    """The tags that a call of a check names, with those that other checks and lists stand for."""
+    """The tags in a call of a check, including those of other checks and lists that it uses."""
     found = set(re.findall(r"\b[A-Z]\w*_tag\b", text))
     for name in set(re.findall(r"\b\w+\b", text)) & checkers.keys():
         found |= tags_in(checkers[name], {other: code for other, code in checkers.items() if other != name})
@@ -26,7 +26,7 @@ def tags_in(text, checkers):
 
 
 def comment_before(text, position):
-    """The comment of the declaration at a position, which follows it without an empty line."""
+    """The comment directly before the declaration at a position."""
     lines = re.split(r"\n\s*\n", text[:position])[-1].split("\n")
     return "\n".join(line for line in lines if line.lstrip().startswith("///"))
 
@@ -42,7 +42,7 @@ def functions_of(text):
 
 
 def find_faults(headers):
-    """Of a dictionary: path -> text of all headers, public and internal ones."""
+    """The faults in a dictionary from paths to texts of all headers, public and internal."""
     names = {a or c: b or d for text in headers.values() for a, b, c, d in DEFINED.findall(text)}
     checkers = {a or c: b or d for text in headers.values() for a, b, c, d in CHECKER.findall(text)}
     functions = [(path, *function) for path, text in headers.items() if "/internal/" not in path
@@ -60,16 +60,16 @@ def find_faults(headers):
     for n, (path, name, comment, calls) in enumerate(functions):
         rows = {row for line in re.findall(r"/// \|([^|]*)\|", comment) for row in re.findall(r"`(\w+)`", line)}
         taken = {known for known, tag in names.items() if tag in tags_in(calls, checkers)}
-        yield from (f"{path}: {name} takes {known} and does not document it" for known in sorted(taken - documented(n)))
+        yield from (f"{path}: {name} takes {known}, but does not document it" for known in sorted(taken - documented(n)))
         if calls:
-            yield from (f"{path}: {name} documents {row} and does not take it" for row in sorted(rows - taken))
+            yield from (f"{path}: {name} documents {row}, but does not take it" for row in sorted(rows - taken))
 
 
 if __name__ == "__main__":
     include = pathlib.Path(sys.argv[1], "include")
     texts = {path.relative_to(include).as_posix(): path.read_text() for path in sorted(include.rglob("*.h"))}
     if sum(1 for text in texts.values() for _, _, calls in functions_of(text) if calls) < 20:
-        sys.exit("less than twenty functions with named parameters found")
+        sys.exit("fewer than twenty functions with named parameters found; check ROOT")
     found = list(find_faults(texts))
-    print("\n".join(found) or "every function documents its named parameters")
+    print("\n".join(found) or "all functions document their named parameters")
     sys.exit(bool(found))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes comments and functions differ about named parameters in every way that documented_parameters.py is to find."""
+"""Tests documented_parameters.py with every kind of difference between comments and functions."""
 import unittest
 
 from documented_parameters import find_faults
@@ -36,29 +36,29 @@ class DocumentedParameters(unittest.TestCase):
                                                   check="check_map_parameters")))
 
     def test_a_parameter_without_documentation_is_found(self):
-        self.assertEqual(["a.h: f takes map_of_k and does not document it"],
+        self.assertEqual(["a.h: f takes map_of_k, but does not document it"],
                          self.faults(function("| `size` | map_of_k |", "Size_tag K_tag")))
-        self.assertEqual(["a.h: f takes map_of_h and does not document it"],
+        self.assertEqual(["a.h: f takes map_of_h, but does not document it"],
                          self.faults(function("| `map_of_k` |", "", check="check_map_parameters")))
 
     def test_a_row_for_what_a_function_does_not_take_is_found(self):
-        self.assertEqual(["a.h: f documents map_of_k and does not take it"],
+        self.assertEqual(["a.h: f documents map_of_k, but does not take it"],
                          self.faults(function("| `size`, `map_of_k` |", "Size_tag")))
-        self.assertEqual(["a.h: f documents no_parameter and does not take it"],
+        self.assertEqual(["a.h: f documents no_parameter, but does not take it"],
                          self.faults(function("| `no_parameter` |\n`size`", "Size_tag")))
 
     def test_the_same_means_the_functions_above(self):
         above = function("| `size` |", "Size_tag") + function("The same with `map_of_k`.", "Size_tag K_tag")
         self.assertEqual([], self.faults(above + function("The same.", "Size_tag K_tag")))
-        self.assertEqual(["a.h: f takes size and does not document it"],
+        self.assertEqual(["a.h: f takes size, but does not document it"],
                          self.faults(above + function("More.", "Size_tag")))
-        self.assertEqual(["a.h: f takes map_of_h and does not document it"],
+        self.assertEqual(["a.h: f takes map_of_h, but does not document it"],
                          self.faults(above + function("The same.", "Size_tag H_tag")))
 
     def test_those_of_another_function_are_in_its_header(self):
         comment, other = "Its parameters are those of g().", function("| `size` |", "Size_tag", "g")
         self.assertEqual([], self.faults(function(comment, "Size_tag"), other))
-        self.assertEqual(["a.h: f takes size and does not document it"],
+        self.assertEqual(["a.h: f takes size, but does not document it"],
                          self.faults(function(comment.replace("g()", "h()"), "Size_tag"), other))
 
     def test_every_way_to_take_parameters_is_known(self):
@@ -67,7 +67,7 @@ class DocumentedParameters(unittest.TestCase):
                          "class Parameters = internal::No_parameters",
                          "internal::Parameter_chain Parameters = internal::No_parameters,\n"
                          "          std::derived_from<CGAL::Sequential_tag> Tag = CGAL::Parallel_if_available_tag"):
-            self.assertEqual(["a.h: f takes size and does not document it"],
+            self.assertEqual(["a.h: f takes size, but does not document it"],
                              self.faults(function("None.", "Size_tag", template=template)))
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Says whether doc/headers.md has each public header with its first sentence: headers_table.py ROOT [--write].
+"""Checks that doc/headers.md lists each public header with its first sentence: headers_table.py ROOT [--write].
 
-With --write it becomes so."""
+--write updates the file."""
 import pathlib
 import re
 import sys
@@ -21,7 +21,7 @@ This list is made of the first sentence of each header; the rest of its document
 
 
 def first_sentence(text):
-    """What the comment at the top of a header says, or else the one of its first declaration; None without either."""
+    """The first sentence of the comment at the top of a header, or of its first declaration; None without a comment."""
     top = re.match(r"// SPDX.*\n((?:// .*\n)+)", text)
     comment = top[1] if top else next(iter(re.findall(r"^(?: *///[^<].*\n)+", text, re.MULTILINE)), "")
     words = re.sub(r"^ *///?", "", comment, flags=re.MULTILINE).replace("\\file", "").split()
@@ -29,7 +29,7 @@ def first_sentence(text):
 
 
 def escaped(sentence):
-    """Markdown in a table that shows the sentence as it is, apart from code between backticks."""
+    """The sentence escaped for a Markdown table, except for code in backticks."""
     parts = sentence.replace("|", "\\|").split("`")
     return "`".join(re.sub(r"[_*<]", r"\\\g<0>", part) if n % 2 == 0 else part for n, part in enumerate(parts))
 
@@ -46,7 +46,7 @@ def document_of(root):
         for name in names:
             sentence = first_sentence((folder / name).read_text())
             if not sentence:
-                sys.exit(f"{name} has no documentation")
+                sys.exit(f"{name} has no documentation; add a comment at its top")
             lines.append(f"| `{name}` | {escaped(sentence)} |")
         lines += [""] if names else []
     return "\n".join(lines)
@@ -58,5 +58,5 @@ if __name__ == "__main__":
     if "--write" in sys.argv:
         document.write_text(expected)
     elif not document.exists() or document.read_text() != expected:
-        sys.exit("doc/headers.md does not have the public headers as they are: "
+        sys.exit("doc/headers.md is out of date: "
                  "run python3 test/layout/headers_table.py . --write")

@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Says which names are functions both in equiaffine and in equiaffine::internal or within: hidden_names.py ROOT.
+"""Finds names of functions both in equiaffine and in equiaffine::internal or nested namespaces: hidden_names.py ROOT.
 
-Within equiaffine::internal such a name hides the outer one, if a header that has it was included before: code compiles
-in one order of includes and not in another, or calls another function. Functions of numbers are found by their
-arguments whatever hides them."""
+In equiaffine::internal such a name hides the outer one if its header was included before. Depending on the order of
+includes, code does not compile, or calls a different function. Functions of numbers are exempt, since they are found by
+argument-dependent lookup."""
 import pathlib
 import re
 import sys
 
 FOUND_BY_ARGUMENTS = {"natural_power", "pow"}
 NAMESPACE = re.compile(r"^(inline )?namespace ([\w:]+) \{|^\} // namespace ([\w:]+)", re.MULTILINE)
-# A declaration at the scope of a namespace begins a line; its name follows its type and is followed by a parenthesis.
+# A declaration at namespace scope starts at the beginning of a line: a type, the name, and a parenthesis.
 FUNCTION = re.compile(r"^(?!static_assert|using|return|#|//|/\*|namespace|friend|\s|\})[\w:<>,&*\[\]() .]*?[ &*>](\w+)\(",
                       re.MULTILINE)
 
@@ -30,7 +30,7 @@ def functions_of(text):
 
 
 def find_faults(headers):
-    """Of a dictionary: path -> text of all headers."""
+    """The faults in a dictionary from paths to texts of all headers."""
     places = {}
     for path, text in headers.items():
         for namespace, name in functions_of(text):

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Says which include lines of a checkout leave the order of its modules, and which files are out of place:
-include_order.py ROOT.
+"""Finds include lines that violate the order of the modules, and misplaced files: include_order.py ROOT.
 
-A module is a folder of include/equiaffine with public headers, and with internal ones in its folder `internal`. A file
-of a module includes headers of its own module and of those that its line in cmake/modules.txt lists. The sources of a
-module and their private headers are in src. The folders of the program are modules, too, and include any header of the
-library. Examples include public headers; tests, benchmarks and reproduce include what they want."""
+A module is a folder of include/equiaffine with public headers, and internal headers in its folder `internal`. A file of
+a module can include headers of its own module and of the modules listed in its line of cmake/modules.txt. The sources
+of a module and their private headers are in src. The folders of the program are also modules, and can include any
+header of the library. Examples can only include public headers; tests, benchmarks and reproduce can include any
+header."""
 import pathlib
 import re
 import sys
@@ -28,7 +28,7 @@ def is_public(path):
 
 
 def read_files(folder):
-    """Path below the folder -> text, of all headers and sources."""
+    """A dictionary from paths relative to the folder to texts, of all headers and sources."""
     paths = sorted(path for path in folder.rglob("*") if path.suffix in (".h", ".cpp", ".cxx"))
     return {path.relative_to(folder).as_posix(): path.read_text() for path in paths}
 
@@ -49,7 +49,7 @@ def faults_of_order(folder, modules):
 
 
 def faults_of_uses(folder, modules, texts, quoted):
-    """One line for each use that cmake/modules.txt lists and no file makes."""
+    """A line for each unused dependency in cmake/modules.txt."""
     used = {(module_of(path), module_of(steps[quoted]))
             for path, text in texts.items() for steps in INCLUDE.findall(text)}
     return [f"cmake/modules.txt: no file of {folder}/{name} uses {other}"
@@ -57,7 +57,7 @@ def faults_of_uses(folder, modules, texts, quoted):
 
 
 def faults_of_step(modules, path, included):
-    """What is wrong with an include line between two files of the library, or two of the program."""
+    """The faults of an include line between two files of the library, or two of the program."""
     here, there = module_of(path), module_of(included)
     if there not in modules:
         yield f"{path} includes {included}: there is no such module in cmake/modules.txt"
@@ -76,7 +76,7 @@ def only_forwards(path, text):
 
 def faults_of_library_file(modules, path, text):
     if only_forwards(path, text):
-        yield f"{path} only forwards: a header has one path"
+        yield f"{path} only forwards: a header has one path; remove it"
     for library, quoted in INCLUDE.findall(text):
         if quoted:
             yield f'{path} includes "{quoted}": write <equiaffine/...>'
@@ -84,7 +84,7 @@ def faults_of_library_file(modules, path, text):
 
 
 def faults_of_source(modules, path, text):
-    """What is wrong with the include lines of a file of src: headers there are for sources of their module."""
+    """The faults of the include lines of a file of src, whose headers are only for the sources of their module."""
     for library, quoted in INCLUDE.findall(text):
         yield from faults_of_step(modules, path, library) if library else ()
         if quoted and module_of(quoted) != module_of(path):
@@ -97,7 +97,7 @@ def faults_of_program_file(modules, path, text):
 
 
 def faults_of_example(path, text):
-    """An example shows what users may include and name."""
+    """The faults of an example, which can only use the public interface."""
     for library, _ in INCLUDE.findall(text):
         if library and not is_public(library):
             yield f"{path} includes {library}: that header is internal"
@@ -106,9 +106,9 @@ def faults_of_example(path, text):
 
 
 def faults_of_reach(library, sources, callers):
-    """One line for each header that no public one and no caller, a program or a binding, includes: what the sources of
-    one module alone need is not installed. Headers of src serve one module, so that what sources of several modules need
-    has no other place."""
+    """A line for each header that is not included, directly or indirectly, by a public header, a program, a binding, or
+    the sources of several modules. Headers that only the sources of one module need belong to src, and are not
+    installed."""
     reached = set()
     next_ones = {path for path in library if is_public(path)}
     users = {(path, module_of(source)) for source, text in sources.items() for path, _ in INCLUDE.findall(text)}
@@ -119,12 +119,12 @@ def faults_of_reach(library, sources, callers):
         reached |= next_ones
         included = {included for path in next_ones for included, _ in INCLUDE.findall(library[path])}
         next_ones = (included & library.keys()) - reached
-    return [f"{path} is included by no public header, and by no program or binding: it belongs to src"
+    return [f"{path} is included by no public header, and by no program or binding; move it to src"
             for path in sorted(library.keys() - reached)]
 
 
 def faults_of_circles(texts):
-    """One line for each header that includes itself by way of others, or lies between two such."""
+    """A line for each header in a cycle of includes, or between two cycles."""
     includes = {path: {a for a, _ in INCLUDE.findall(text) if a in texts} for path, text in texts.items()}
     while True:
         included = set().union(*includes.values()) if includes else set()
@@ -132,11 +132,11 @@ def faults_of_circles(texts):
         if not ends:
             break
         includes = {path: steps - ends for path, steps in includes.items() if path not in ends}
-    return [f"{path} is in a circle of includes" for path in sorted(includes)]
+    return [f"{path} is in a cycle of includes; remove one" for path in sorted(includes)]
 
 
 def faults_of_quotes(path, text):
-    """A path into the library that is written as one of the file system is seen by no other check."""
+    """Includes of the library in quotes, which no other check finds."""
     for _, quoted in INCLUDE.findall(text):
         if "include/equiaffine/" in quoted:
             yield f'{path} includes "{quoted}": write <equiaffine/...>'
@@ -176,7 +176,7 @@ def find_faults(root):
 if __name__ == "__main__":
     root = pathlib.Path(sys.argv[1])
     if not read_files(root / LIBRARY):
-        sys.exit(f"no headers below {root / LIBRARY}")
+        sys.exit(f"no headers in {root / LIBRARY}; check ROOT")
     found = find_faults(root)
-    print("\n".join(found) or "every file includes what its module may include")
+    print("\n".join(found) or "no include line violates the order of the modules")
     sys.exit(bool(found))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Breaks the order of a small checkout in every way that include_order.py is to find."""
+"""Tests include_order.py with every kind of fault in a small checkout."""
 import pathlib
 import tempfile
 import unittest
@@ -12,7 +12,7 @@ MODULES = ("# a comment\n[include/equiaffine]\nlow: | what is low\nother: | what
 
 class IncludeOrder(unittest.TestCase):
     def faults(self, **changed):
-        """Of a checkout with a few modules, where the files that are named have other text; `__` stands for `/`."""
+        """The faults in a small checkout in which the given files have different text; `__` in a name means `/`."""
         files = {
             "cmake/modules.txt": MODULES,
             "include/equiaffine/low/a.h": "#include <equiaffine/low/internal/b.h>\nclass A {};\n",
@@ -121,7 +121,7 @@ class IncludeOrder(unittest.TestCase):
         self.assertEqual(self.faults(include__equiaffine__low__sum_h="#include <equiaffine/low/internal/b.h>\n"), [])
 
     def test_headers_that_include_each_other(self):
-        self.assert_fault("circle", include__equiaffine__low__internal__b_h="#include <equiaffine/low/a.h>\n")
+        self.assert_fault("cycle", include__equiaffine__low__internal__b_h="#include <equiaffine/low/a.h>\n")
 
     def test_a_header_that_sources_alone_need(self):
         self.assert_fault("low/internal/c.h is included by no public header",

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compiles all public headers together: include_orders.py ROOT ORDER COMPILER [FLAG...], ORDER being `reverse` or `random`.
+"""Compiles all public headers together in a different order: include_orders.py ROOT ORDER COMPILER [FLAG...].
 
-all_headers.h has them in the order of the alphabet. In the reverse of it, each of two headers comes before the other. In
-the two random orders, which are the same on every run, other headers stand between them."""
+ORDER is `reverse` or `random`. all_headers.h has alphabetic order; with the reverse order, each header comes before
+each other one in one of the two. The two random orders, the same in every run, put different headers between them."""
 import concurrent.futures
 import os
 import pathlib
@@ -24,7 +24,7 @@ if __name__ == "__main__":
     headers = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.h")
                      if "internal" not in path.parts)
     if len(headers) < 50:
-        sys.exit(f"only {len(headers)} headers were found")
+        sys.exit(f"only {len(headers)} headers found; check ROOT")
     orders = {"reverse": [("reverse", headers[::-1])],
               "random": [(f"random {seed}", random.Random(seed).sample(headers, len(headers)))
                          for seed in (1, 2)]}[sys.argv[2]]

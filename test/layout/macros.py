@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Says which macros of equiaffine are left after its public headers: macros.py ROOT COMPILER [FLAG...]."""
+"""Finds macros of equiaffine that remain defined after its public headers: macros.py ROOT COMPILER [FLAG...]."""
 import pathlib
 import subprocess
 import sys
@@ -14,6 +14,6 @@ names = [line.split()[1].partition("(")[0] for line in result.stdout.splitlines(
 guards = [name for name in names if name.startswith("EQUIAFFINE_") and name.endswith("_H")]
 leaked = [name for name in names if name.startswith("EQUIAFFINE_") and not name.endswith("_H")]
 if len(guards) < len(headers) / 2:
-    sys.exit("the headers were not read")
+    sys.exit("the compiler did not read the headers; check ROOT and COMPILER")
 print("\n".join(f"{name} is defined after the public headers" for name in leaked) or "no macro leaks")
 sys.exit(bool(leaked))

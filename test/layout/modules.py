@@ -6,7 +6,8 @@ Module = collections.namedtuple("Module", "uses contents")
 
 
 def read_modules(root):
-    """Folder -> {name of a module in it: the modules that it uses, and what it has}, in the order of the file."""
+    """A dictionary: folder -> {name of a module: the modules that it uses, and its contents}, in the order of the
+    file."""
     folders = {}
     for line in (root / "cmake/modules.txt").read_text().splitlines():
         if line.startswith("["):

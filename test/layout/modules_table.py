@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Says whether the tables of modules in doc/architecture.md are those of cmake/modules.txt.
+"""Checks that the tables of modules in doc/architecture.md agree with cmake/modules.txt: modules_table.py ROOT
+[--write].
 
-modules_table.py ROOT [--write]: with --write they become so."""
+--write updates the tables."""
 import pathlib
 import re
 import sys
@@ -10,14 +11,14 @@ from modules import read_modules
 
 
 def table_of(folder, modules):
-    lines = [f"| `{folder}/` | uses | what is in it |", "|---|---|---|"]
+    lines = [f"| `{folder}/` | uses | contents |", "|---|---|---|"]
     lines += [f"| `{name}/` | {', '.join(module.uses) or 'nothing'} | {module.contents} |"
               for name, module in modules.items()]
     return "\n".join(lines) + "\n"
 
 
 def with_tables(text, root):
-    """The text with each table of modules, which begins with the name of their folder, as cmake/modules.txt has it."""
+    """The text with updated tables of modules. Each table begins with the name of its folder."""
     for folder, modules in read_modules(root).items():
         text, count = re.subn(rf"^\| `{folder}/` \|.*\n(\|.*\n)+", lambda _: table_of(folder, modules), text,
                               flags=re.MULTILINE)
@@ -34,5 +35,5 @@ if __name__ == "__main__":
     if "--write" in sys.argv:
         path.write_text(expected)
     elif text != expected:
-        sys.exit("the tables of modules in doc/architecture.md are not those of cmake/modules.txt: "
+        sys.exit("the tables of modules in doc/architecture.md differ from cmake/modules.txt: "
                  "run python3 test/layout/modules_table.py . --write")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Says which functions of the library take named parameters and do not check them: python3 named_parameters.py ROOT.
+"""Finds functions of the library that take named parameters without checking them: python3 named_parameters.py ROOT.
 
-Without the call of check_parameters, a named parameter that the function does not know would be ignored silently."""
+Without a call of check_parameters, an unknown named parameter would be ignored silently."""
 import pathlib
 import re
 import sys
@@ -24,7 +24,7 @@ if __name__ == "__main__":
     headers = {path: path.read_text() for path in sorted(pathlib.Path(sys.argv[1], "include").rglob("*.h"))
                if "internal" not in path.parts}
     if not any(TAKES_PARAMETERS.search(text) for text in headers.values()):
-        sys.exit("no function with named parameters found")
+        sys.exit("no functions with named parameters found; check ROOT")
     found = [fault for path, text in headers.items() for fault in find_faults(path, text)]
-    print("\n".join(found) or "every function checks its named parameters")
+    print("\n".join(found) or "all functions check their named parameters")
     sys.exit(bool(found))

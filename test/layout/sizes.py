@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Says which files and functions are too long to be read at a sitting, and which headers are too short:
-python3 sizes.py ROOT.
+"""Finds files and functions that are too long, and headers that are too short: python3 sizes.py ROOT.
 
-Files have at most 500 lines. Functions of include, src, program and viewer have at most 60, in C++ as in JavaScript.
-The code is formatted by clang-format, so that a function ends at the first closing brace as far left as its head.
+Files must have at most 500 lines. Functions of include, src, program and viewer must have at most 60 lines, in C++ and
+in JavaScript. The code is formatted by clang-format, so a function ends at the first closing brace with the indentation
+of its head.
 
-A header of include, src or program with less than 60 lines has two users, which are files outside of test that include
-it. With one, its lines belong there."""
+A header of include, src or program with fewer than 60 lines must have two users, that is, files outside of test that
+include it. If there is one user, move its lines there."""
 import pathlib
 import re
 import sys
 
 MOST_LINES_OF_FILE, MOST_LINES_OF_FUNCTION = 500, 60
 LEAST_LINES_OF_HEADER_WITH_ONE_USER = 60
-SHORT_HEADERS = {  # with one user, and why
+SHORT_HEADERS = {  # exceptions with one user, and the reasons
     "include/equiaffine/io/write_curves.h": "it is for callers, as the other writers are",
     "src/display/oklab.h": "its test reads the maps of colors before they are clamped",
 }
@@ -39,7 +39,8 @@ def head_of(lines, end):
 
 
 def end_of(lines, begin, body):
-    """The line that closes what begins at line `begin` and has a body from line `body` on; None if that is no block."""
+    """The last line of the block that begins at line `begin` and whose body begins at line `body`; None if not a
+    block."""
     for n in range(body + 1, len(lines)):
         line = lines[n]
         if line.strip() and not line.startswith("#") and indent(line) <= indent(lines[begin]):
@@ -61,7 +62,7 @@ def functions(text):
 
 
 def files(root, folders, suffixes):
-    """(path below the root, text) of each file of the folders."""
+    """(path relative to the root, text) of each file of the folders."""
     for folder in folders:
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in suffixes:
@@ -69,7 +70,7 @@ def files(root, folders, suffixes):
 
 
 def users_of_headers(root):
-    """Path of a header -> the files outside of test that include it."""
+    """A dictionary from paths of headers to the files outside of test that include them."""
     users = {}
     for name, text in files(root, WITH_HEADERS + OTHERS, (".h", ".cpp", ".cxx")):
         if name.startswith("test/"):
@@ -88,28 +89,28 @@ def faults_of_headers(root):
         number = len(users.get(name, ()))
         is_short = text.count("\n") < LEAST_LINES_OF_HEADER_WITH_ONE_USER and number < 2
         if is_short and name not in SHORT_HEADERS:
-            lines = f"less than {LEAST_LINES_OF_HEADER_WITH_ONE_USER} lines"
+            lines = f"fewer than {LEAST_LINES_OF_HEADER_WITH_ONE_USER} lines"
             if number == 0:
-                yield f"{name}: a header of {lines} that only tests include, or nothing: who needs it?"
+                yield f"{name}: a header of {lines} that at most tests include; remove it"
             else:
-                yield f"{name}: a header of {lines} that only {min(users[name])} includes: can it be a part of that?"
+                yield f"{name}: a header of {lines} that only {min(users[name])} includes; make it a part of that file"
         elif not is_short and name in SHORT_HEADERS:
-            yield f"{name}: it needs no exception in SHORT_HEADERS any more: remove it there"
+            yield f"{name}: no longer needs an exception in SHORT_HEADERS; remove it there"
 
 
 def find_faults(root):
     for name, text in [*files(root, WITH_FUNCTIONS, (".h", ".cpp", ".js", ".glsl", ".css", ".html")),
                        *files(root, OTHERS, (".h", ".cpp", ".cxx", ".py"))]:
         if (length := text.count("\n")) > MOST_LINES_OF_FILE:
-            yield f"{name} has {length} lines, {MOST_LINES_OF_FILE} at most: can one idea be one file?"
+            yield f"{name} has {length} lines, at most {MOST_LINES_OF_FILE} allowed; split it"
         if name.startswith(tuple(folder + "/" for folder in WITH_FUNCTIONS)):
             for line, length in functions(text):
                 if length > MOST_LINES_OF_FUNCTION:
-                    yield f"{name}:{line}: a function of {length} lines, {MOST_LINES_OF_FUNCTION} at most"
+                    yield f"{name}:{line}: a function of {length} lines, at most {MOST_LINES_OF_FUNCTION} allowed; split it"
     yield from faults_of_headers(root)
 
 
 if __name__ == "__main__":
     found = list(find_faults(pathlib.Path(sys.argv[1])))
-    print("\n".join(found) or "no file and no function is too long, and no header too short")
+    print("\n".join(found) or "no file or function is too long, and no header is too short")
     sys.exit(bool(found))

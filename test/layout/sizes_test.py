@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes files and functions that are just short enough, and one line too long, and headers with too few users."""
+"""Tests sizes.py with files and functions of the maximum length, longer ones, and headers with too few users."""
 import pathlib
 import tempfile
 import unittest
@@ -13,7 +13,7 @@ def function(lines, head="int f(int x) {"):
 
 class Sizes(unittest.TestCase):
     def faults_of(self, files):
-        """Of a checkout with these files: path -> text."""
+        """The faults in a checkout with these files, a dictionary from paths to texts."""
         with tempfile.TemporaryDirectory() as folder:
             for name, text in files.items():
                 path = pathlib.Path(folder) / name
@@ -22,7 +22,7 @@ class Sizes(unittest.TestCase):
             return list(find_faults(pathlib.Path(folder)))
 
     def faults(self, text):
-        """Of a checkout with one header and two files that include it."""
+        """The faults in a checkout with one header and two files that include it."""
         user = "#include <equiaffine/module/a.h>\n"
         return self.faults_of({"include/equiaffine/module/a.h": text, "src/a.cpp": user, "src/b.cpp": user})
 
@@ -43,9 +43,9 @@ class Sizes(unittest.TestCase):
         del users["program/main.cpp"]
         self.assertEqual(self.faults_of({header: "int x;\n" * 60, **users}), [])
         users["test/program/a_test.cpp"] = user
-        self.assertIn("program/cli/a.h: a header of less than 60 lines that only program/cli/a.cpp includes",
+        self.assertIn("program/cli/a.h: a header of fewer than 60 lines that only program/cli/a.cpp includes",
                       self.faults_of({header: "int x;\n" * 59, **users})[0])
-        self.assertIn("that only tests include", self.faults_of({header: "int x;\n", "test/a.cpp": user})[0])
+        self.assertIn("that at most tests include", self.faults_of({header: "int x;\n", "test/a.cpp": user})[0])
 
     def test_headers_of_one_name_in_two_folders_have_users_of_their_own(self):
         user = '#include "m/a.h"\n'

@@ -26,7 +26,7 @@ TEST(Shared_memory_DeathTest, says_that_the_limit_of_the_size_of_files_is_too_sm
     }
     std::_Exit(0);
   };
-  EXPECT_EXIT(allocate_beyond_limit(), testing::ExitedWithCode(2), "below 2000 bytes.*ulimit -f");
+  EXPECT_EXIT(allocate_beyond_limit(), testing::ExitedWithCode(2), "less than the 2000 bytes.*ulimit -f");
 }
 
 } // namespace Shared_memory_test

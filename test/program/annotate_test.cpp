@@ -104,7 +104,7 @@ TEST_F(Program_annotate, points_without_faces_are_fitted_too) {
   }
   EXPECT_LT(column(mesh("out.ply"), "nx")[0] * nx[0], 0) << "the normals of the file say what is outside";
   const std::string summary = run_well({"annotate", "colored.xyz", "-o", "out.ply"});
-  EXPECT_NE(summary.find("points\ncolumns 4 to 6 are colors, not normals"), std::string::npos) << summary;
+  EXPECT_NE(summary.find("points\ncolumns 4 to 6 are colors; normals"), std::string::npos) << summary;
   expect_right("out.ply", "exact.ply");
   EXPECT_EQ(column(mesh("out.ply"), "green")[0], 130);
   run_well({"annotate", "in.csv", "-o", "out.csv", "--degree", "4", "--attributes", "affine_gaussian_curvature"});
@@ -234,7 +234,7 @@ TEST_F(Program_annotate, statistics_say_what_was_fitted) {
   EXPECT_LE(fit.at("below_50"), 1.);
   EXPECT_EQ(fit.at("known").at("affine_gaussian_curvature").at("below_20"), fit.at("below_20"));
   EXPECT_GE(fit.at("known").at("affine_area_density").at("below_20"), fit.at("below_20"));
-  EXPECT_NE(out.find("known to 20 / 50 % at so many %: K "), std::string::npos) << out;
+  EXPECT_NE(out.find("% of vertices with errors below 20 / 50 %: K "), std::string::npos) << out;
   EXPECT_NE(out.find("wrote out.ply\nwrote stats.json\n"), std::string::npos) << out;
   EXPECT_NE(out.find("Euler characteristic 2, closed"), std::string::npos) << out;
 }
@@ -246,10 +246,10 @@ TEST_F(Program_annotate, view_knows_the_fit_that_a_mesh_comes_from) {
     run_well({"view", "out.ply", "-o", "view.html"});
     return file("view.html");
   };
-  const std::string lost = "lost: the file has no column NAME_error";
+  const std::string lost = "missing: the file has no columns NAME_error";
   const std::string with_errors = page_of({"--scale", "1.2"});
   for (const char* fact : {"<dt>Scale</dt><dd>1.2</dd>", "<dt>Noise</dt>",
-                           "<dt>Known to 20 / 50 % at so many %</dt><dd>K ", " at scale 1.2"}) {
+                           "<dt>% of vertices with errors below 20 / 50 %</dt><dd>K ", " at scale 1.2"}) {
     EXPECT_NE(with_errors.find(fact), std::string::npos) << fact;
     EXPECT_NE(file("own.html").find(fact), std::string::npos) << fact;
   }
@@ -301,8 +301,8 @@ TEST_F(Program_annotate, points_that_are_too_few_are_outside_and_a_warning_says_
   const Result result = run({"annotate", "few.csv", "-o", "-", "--attributes", "status"});
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.out, "x,y,z,status\n0,0,0,outside\n1,0,0,outside\n0,1,0,outside\n");
-  EXPECT_EQ(result.error, "equiaffine: warning: 100 % of the vertices have no fit, which needs 15 connected points "
-                          "or more around each; give more points\n");
+  EXPECT_EQ(result.error, "equiaffine: warning: 100 % of the vertices have no fit, which needs at least 15 connected "
+                          "points nearby; give more points\n");
   run({"annotate", "few.csv", "-o", "few.ply", "--stats", "stats.json"});
   EXPECT_TRUE(Json::parse(file("stats.json")).at("fit").at("noise").is_null());
 }
@@ -336,7 +336,7 @@ TEST_F(Program_annotate_long, normals_that_contradict_are_warned_of) {
   run_well({"annotate", "agreeing.xyz", "-o", "out.ply"});
   for (const Arguments& command : {Arguments{"annotate", "opposed.xyz"}, {"mesh", "--fit", "opposed.xyz"}}) {
     const Result result = run(command + Arguments{"-o", "out.ply"});
-    EXPECT_NE(result.error.find("of the points have a normal opposed to that of the nearest other point; turn"),
+    EXPECT_NE(result.error.find("of the points have a normal opposite to that of the nearest point; orient"),
               std::string::npos)
         << result.error;
   }
@@ -360,11 +360,11 @@ TEST_F(Program_annotate, what_cannot_be_used_is_refused) {
   write_file(folder_ / "empty.csv", "x,y,z\n");
   write_file(folder_ / "broken.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n");
   const Arguments to = {"-o", "out.ply"};
-  expect_error(Arguments{"annotate"} + to, {"no mesh is given"});
+  expect_error(Arguments{"annotate"} + to, {"the mesh is missing"});
   expect_error({"annotate", "in.xyz"}, {"--output is missing"});
   expect_error(Arguments{"annotate", "in.xyz", "--scale", "-1"} + to,
                {"--scale", "'-1'", "not a length", "auto or none"});
-  expect_error(Arguments{"annotate", "in.xyz", "--noise", "-1"} + to, {"--noise", "'-1'", "less than 0"});
+  expect_error(Arguments{"annotate", "in.xyz", "--noise", "-1"} + to, {"--noise", "'-1'", "standard deviation"});
   expect_error(Arguments{"annotate", "in.xyz", "--degree", "7"} + to, {"--degree", "'7'", "4 or 5 or 6 or 8 or 10"});
   expect_error(Arguments{"annotate", "bad.xyz"} + to, {"'bad.xyz'", "line 3", "'x' is not a number"});
   expect_error(Arguments{"annotate", "uneven.xyz"} + to, {"'uneven.xyz'", "line 2 has 4 numbers"});
@@ -373,7 +373,7 @@ TEST_F(Program_annotate, what_cannot_be_used_is_refused) {
   expect_error(Arguments{"annotate", "broken.obj"} + to, {"broken.obj", "get the complete file again"});
   expect_error(Arguments{"annotate", "none.ply"} + to, {"'none.ply'", "no such file"});
   expect_error(Arguments{"annotate", "in.txt"} + to, {"'in.txt'", "extension", ".ply .off .obj .stl"});
-  expect_error({"annotate", "in.xyz", "-o", "in.xyz"}, {"would replace the file that is read"});
+  expect_error({"annotate", "in.xyz", "-o", "in.xyz"}, {"would overwrite an input"});
   expect_error({"annotate", "in.xyz", "-o", "out.stl"}, {"'out.stl'", "has no attributes", ".ply .csv"});
   EXPECT_EQ(file("in.xyz"), "0 0 0\n1 0 0\n");
 }

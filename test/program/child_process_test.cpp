@@ -80,9 +80,9 @@ TEST(Program_child_process, hands_on_errors_of_input_with_their_excerpts) {
 TEST(Program_child_process, fails_if_it_crashes_or_throws) {
   EXPECT_EQ(failure_of([] { std::raise(SIGSEGV); }), "crashed (Segmentation fault)");
   EXPECT_EQ(failure_of([] { std::abort(); }), "crashed (Aborted)");
-  EXPECT_EQ(failure_of([] { throw std::runtime_error("reason"); }), "gave up (reason)");
-  EXPECT_EQ(failure_of([] { throw 1; }), "gave up");
-  EXPECT_EQ(failure_of([] { std::_Exit(0); }), "gave up");
+  EXPECT_EQ(failure_of([] { throw std::runtime_error("reason"); }), "failed (reason)");
+  EXPECT_EQ(failure_of([] { throw 1; }), "failed");
+  EXPECT_EQ(failure_of([] { std::_Exit(0); }), "failed");
 }
 
 TEST(Program_child_process, fails_if_it_takes_too_long) {

@@ -41,7 +41,7 @@ TEST_F(Program_command_line, a_volume_of_two_nodes_per_axis_is_extracted_without
   const Result result = run({"mesh", "--volume", "v.nrrd", "--level", "1.5", "-o", "out.ply"});
   EXPECT_EQ(result.status, 0);
   EXPECT_EQ(result.error, "equiaffine: warning: 6 of 6 vertices are outside and have no attributes: a spline of degree "
-                          "7 needs 8 nodes along each axis, and there are 2 along one; give more nodes\n");
+                          "7 needs 8 nodes along each axis, and one axis has 2; give more nodes\n");
 }
 
 TEST_F(Program_command_line, distances_are_sampled_in_the_box_of_the_mesh_and_a_tenth_around_it) {

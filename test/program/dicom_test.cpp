@@ -145,7 +145,7 @@ TEST_F(Program_dicom, frames_lie_one_spacing_after_the_other) {
       read_volume(write("named", dicom({tomography, spacing_between_slices("2"), start + axes}, {1, 2}))).to_volume(),
       {1, 2}, 2);
   expect_error(write("a.dcm", dicom({tomography, element(0x18, 0x50, "DS", "1"), start + axes}, {1, 2})),
-               "says neither where its 2 frames are (0020,0032) nor how far apart (0018,0088)");
+               "both the positions (0020,0032) and the spacing (0018,0088) of its 2 frames are missing");
   expect_error(write("a.dcm", dicom({tomography, spacing_between_slices("x"), start + axes}, {1, 2})),
                "element 0018|0088 'x '; write a finite number");
 }
@@ -178,10 +178,10 @@ TEST_F(Program_dicom, the_places_of_frames_decide_in_whatever_order_they_are) {
   expect_slices(read_volume(path_of({"7", "5", "3"}, {1, 2, 3})).to_volume(), {3, 2, 1}, 2);
   expect_slices(read_volume(path_of({"5", "3", "9", "7"}, {1, 2, 3, 4})).to_volume(), {2, 1, 4, 3}, 2);
   expect_error(path_of({"3", "9", "5"}, {1, 2, 3}),
-               "not evenly spaced: frame 3 of 'a.dcm' and frame 2 of 'a.dcm' are 4 apart, and frame 1 of 'a.dcm' and "
-               "frame 3 of 'a.dcm' 2");
-  expect_error(path_of({"3", "3", "5"}, {1, 2, 3}), "frame 1 of 'a.dcm' and frame 2 of 'a.dcm' are in one place");
-  expect_error(path_of({"3", "5"}, {1, 2, 3}), "it has 3 frames and the places of 2");
+               "not evenly spaced: frame 3 of 'a.dcm' and frame 2 of 'a.dcm' are 4 mm apart, but frame 1 of 'a.dcm' "
+               "and frame 3 of 'a.dcm' 2 mm");
+  expect_error(path_of({"3", "3", "5"}, {1, 2, 3}), "frame 1 of 'a.dcm' and frame 2 of 'a.dcm' have the same position");
+  expect_error(path_of({"3", "5"}, {1, 2, 3}), "it has 3 frames, but positions of 2");
 }
 
 TEST_F(Program_dicom, frames_have_scales_of_their_own) {
@@ -199,17 +199,17 @@ TEST_F(Program_dicom, slices_that_do_not_belong_together_are_named) {
   };
   const auto place = [](const std::string& z) { return position(R"(1\2\)" + z) + axes; };
   const std::string first = add("b.dcm", {{}, {}, place("3")}, 1);
-  expect_error(first, "one slice only; name the folder");
-  expect_error(series(), "one slice only");
+  expect_error(first, "only one slice; name the folder");
+  expect_error(series(), "only one slice");
   add("a.dcm", {{}, {}, place("5")}, 2);
   write("series/notes.txt", "two slices");
   expect_slices(read_volume(series()).to_volume(), {1, 2}, 2);
   Parts low = {{}, {}, place("7")};
   low.rows = 2;
   const std::string other = add("c.dcm", low, 3);
-  expect_error(series(), "'c.dcm' has 4 x 2 pixels, and 'a.dcm' has 4 x 3");
+  expect_error(series(), "'c.dcm' has 4 x 2 pixels, but 'a.dcm' has 4 x 3");
   add("c.dcm", {{}, {}, position(R"(1\2\7)") + element(0x20, 0x37, "DS", R"(0\1\0\1\0\0)")}, 3);
-  expect_error(series(), "'c.dcm' is turned or scaled against 'a.dcm'");
+  expect_error(series(), "'c.dcm' is rotated or scaled relative to 'a.dcm'");
   add("c.dcm", {{}, {}, place("7"), {}, "1.2.4"}, 3);
   expect_error(series(), "2 DICOM series");
   const std::string bytes = dicom({tomography, {}, place("7")}, {3});

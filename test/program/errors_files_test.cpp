@@ -24,7 +24,7 @@ TEST_F(Program_errors, an_output_that_cannot_be_written_is_found_out) {
   expect_error(mesh_of("x") + box + Arguments{"--html", "new.html", "--stats", "../work/new.html"},
                {"two outputs", "'../work/new.html'"});
   expect_error(mesh_of("x") + box + Arguments{"--parabolic-curves", "out.ply"}, {"'out.ply'"});
-  expect_error(mesh_of("x") + box + Arguments{"--parabolic-curves", "curves.csv"}, {"'curves.csv'", "use one of .obj"});
+  expect_error(mesh_of("x") + box + Arguments{"--parabolic-curves", "curves.csv"}, {"'curves.csv'", ".obj"});
   expect_error(Arguments{"sample", "--function", "x", "-o", "v.xyz"} + box, {"v.xyz", ".nrrd"});
   expect_error({"evaluate", "--function", "x", "--points", "p.csv", "-o", "o.off"}, {"o.off", ".csv or .ply"});
   const Result full = run(Arguments{"mesh", "--function", "x", "-o", "-"} + box, "", "/dev/full");
@@ -36,7 +36,7 @@ TEST_F(Program_errors, an_output_that_cannot_be_written_is_found_out) {
 }
 
 TEST_F(Program_errors, an_output_does_not_replace_what_is_read) {
-  const Arguments same = {"would replace the file that is read", "give it another name"};
+  const Arguments same = {"would overwrite an input", "give it another name"};
   run_well(Arguments{"mesh", "--function", "x^2+y^2+z^2-1", "--resolution", "9", "-o", "s.ply"} + box);
   std::filesystem::create_symlink("s.ply", folder_ / "symbolic.html");
   std::filesystem::create_hard_link(folder_ / "s.ply", folder_ / "hard.html");
@@ -58,7 +58,7 @@ TEST_F(Program_errors, an_output_does_not_replace_data_that_a_header_names) {
   add_input("one.mhd", header + "d.ply\n");
   add_input("two.mhd", header + "s%d.json 0 1 1\n");
   add_input("three.nhdr", "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\ndata file: d.ply\n");
-  const Arguments same = {"would replace the file that is read", "give it another name"};
+  const Arguments same = {"would overwrite an input", "give it another name"};
   for (const char* volume : {"one.mhd", "three.nhdr"}) expect_error({"mesh", "--volume", volume, "-o", "d.ply"}, same);
   expect_error({"mesh", "--volume", "two.mhd", "-o", "out.ply", "--stats", "s1.json"}, same);
   std::filesystem::create_directory(folder_ / "series");
@@ -81,10 +81,10 @@ TEST_F(Program_errors, a_formula_may_come_from_a_file_that_holds_one) {
   add_input("wrong", "x +\n foo\n");
   add_input("large", std::string(2'000'000, ' '));
   expect_error(mesh_of("@none") + box, {"'none'", "no such file"});
-  expect_error(mesh_of("@") + box, {"--function", "no file name after the @"});
+  expect_error(mesh_of("@") + box, {"--function", "the file name after @ is missing"});
   expect_error(mesh_of("@..") + box, {"'..'", "it is a folder"});
-  expect_error(mesh_of("@blank") + box, {"'blank'", "it holds no formula"});
-  expect_error(mesh_of("@large") + box, {"'large'", "a million bytes"});
+  expect_error(mesh_of("@blank") + box, {"'blank'", "it is empty"});
+  expect_error(mesh_of("@large") + box, {"'large'", "more than 1000000 bytes"});
   expect_error(mesh_of("@wrong") + box, {"foo"}, "x +  foo\n     ^\n");
 }
 
@@ -112,7 +112,7 @@ TEST_F(Program_errors, a_missing_file_is_named) {
   expect_error({"mesh", "--distance-to", "no.off", "-o", "out.ply"}, {"no.off", "no such file"});
   expect_error({"evaluate", "--function", "x", "--points", "no.csv", "-o", "o.csv"}, {"no.csv", "no such file"});
   expect_error({"view", "no.ply", "-o", "o.html"}, {"no.ply", "no such file"});
-  expect_error({"view", "-o", "o.html"}, {"no mesh is given"});
+  expect_error({"view", "-o", "o.html"}, {"the mesh is missing"});
 }
 
 TEST_F(Program_errors, points_are_a_table_with_a_header) {
@@ -134,7 +134,7 @@ TEST_F(Program_errors, a_mesh_to_measure_from_is_closed) {
   for (const std::string tiny : {"1e-77", "1e-100", "1e-200"}) {
     add_input("tiny.off", "OFF\n4 4 0\n0 0 0\n" + tiny + " 0 0\n0 " + tiny + " 0\n0 0 " + tiny +
                               "\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
-    expect_error({"mesh", "--distance-to", "tiny.off", "-o", "out.ply"}, {"'tiny.off'", "too small", "smaller unit"});
+    expect_error({"mesh", "--distance-to", "tiny.off", "-o", "out.ply"}, {"'tiny.off'", "underflows", "smaller unit"});
   }
   add_input("short.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n");
   expect_error({"mesh", "--distance-to", "short.off", "-o", "out.ply"}, {"short.off"});
@@ -147,7 +147,7 @@ TEST_F(Program_errors, a_grid_has_steps_whose_fourth_powers_are_numbers) {
   const Arguments volume = {"mesh", "--volume", "grid.raw", "--type", "uint8",  "--dims",
                             "8",    "8",        "8",        "-o",     "out.ply"};
   for (const std::string step : {"1e-80", "1e+80"})
-    expect_error(volume + Arguments{"--spacing", "1", step, "1"}, {"'grid.raw'", "length " + step, "another unit"});
+    expect_error(volume + Arguments{"--spacing", "1", step, "1"}, {"'grid.raw'", "is " + step, "another unit"});
   expect_error({"mesh", "--function", "x", "--derivatives", "spline", "--box", "-1e-80", "1e-80", "-1", "1", "-1", "1",
                 "-o", "out.ply"},
                {"formula x", "another unit"});
@@ -179,22 +179,22 @@ TEST_F(Program_errors, a_volume_is_complete) {
   run_well(Arguments{"sample", "--function", "x", "--resolution", "9", "-o", "v.nrrd"} + box);
   std::filesystem::resize_file(folder_ / "v.nrrd", std::filesystem::file_size(folder_ / "v.nrrd") / 2);
   before_ = names();
-  expect_error({"mesh", "--volume", "v.nrrd", "-o", "out.ply"}, {"v.nrrd", "end"});
+  expect_error({"mesh", "--volume", "v.nrrd", "-o", "out.ply"}, {"v.nrrd", "shorter"});
 }
 
 TEST_F(Program_errors, a_volume_in_two_files_has_both) {
   run_well(Arguments{"sample", "--function", "x", "--resolution", "9", "-o", "v.mhd"} + box);
   std::filesystem::remove(folder_ / "v.raw");
   before_ = names();
-  expect_error({"mesh", "--volume", "v.mhd", "-o", "out.ply"}, {"'v.mhd'", "'v.raw', is missing"});
+  expect_error({"mesh", "--volume", "v.mhd", "-o", "out.ply"}, {"'v.mhd'", "'v.raw' is missing"});
 }
 
 TEST_F(Program_errors, a_header_that_ends_early_is_not_explained_by_another_error) {
   add_input("h.mha", "ObjectType = Image\nNDims = 3\n");
   const Result result = run({"mesh", "--volume", "h.mha", "-o", "out.ply"});
   EXPECT_EQ(result.status, 2);
-  EXPECT_EQ(result.error, "equiaffine: error: cannot read the volume 'h.mha': its header is not understood; check that "
-                          "the extension is right and the file complete\n");
+  EXPECT_EQ(result.error, "equiaffine: error: cannot read the volume 'h.mha': its header cannot be read; check that "
+                          "the extension is right and the file is complete\n");
   add_input("e.mhd", "");
   expect_error({"mesh", "--volume", "e.mhd", "-o", "out.ply"}, {"'e.mhd'", "it is empty"});
 }

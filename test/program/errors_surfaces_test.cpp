@@ -17,7 +17,7 @@ TEST_F(Program_errors, criteria_of_a_Delaunay_mesh_can_be_satisfied) {
   for (const char* option : {"--radius", "--distance"}) {
     for (const char* bad : {"0", "-1", "nan", "wide"})
       expect_error(delaunay + Arguments{option, bad}, {option, std::string("'").append(bad).append("'")});
-    expect_error(delaunay + Arguments{option, "1e-14"}, {option, "1e-14", "GB of memory", "use larger ones"});
+    expect_error(delaunay + Arguments{option, "1e-14"}, {option, "1e-14", "GB of memory", "use larger values"});
   }
   for (const char* bad : {"30.1", "-1", "inf"}) expect_error(delaunay + Arguments{"--angle", bad}, {"--angle", bad});
   for (const char* side : {"1e50", "1e-50"}) {
@@ -36,7 +36,7 @@ TEST_F(Program_errors, a_surface_without_triangles_is_told_from_none) {
 TEST_F(Program_errors, facets_that_coordinates_cannot_tell_apart_are_refused) {
   expect_error(mesh_of("x - 1e17") +
                    Arguments{"--method", "delaunay", "--box", "1e17", "100000000000000016", "-1", "1", "-1", "1"},
-               {"a radius of 0.32", "too small beside coordinates to 1e+17", "choose a larger --radius"});
+               {"a radius of 0.32", "too small for coordinates up to 1e+17", "choose a larger --radius"});
 }
 
 TEST_F(Program_errors, a_surface_outside_the_box_is_none) {
@@ -60,15 +60,15 @@ TEST_F(Program_errors_long, it_is_not_said_that_there_is_no_surface_where_none_w
   for (const Arguments& method : {Arguments{}, delaunay})
     for (const char* formula : {"(x^2+y^2+z^2-1)^2", "max(0,x^2+y^2+z^2-1)", "abs(x^2+y^2+z^2-1)", "(x+y-.3)^2+z^2"})
       expect_error(mesh_of(formula) + box + method,
-                   found + Arguments{"f has zeros without a change of sign", "choose another --level"});
-  expect_error(mesh_of("0*x") + box, found + Arguments{"f is that at all nodes of a grid"});
+                   found + Arguments{"f touches this value without crossing it", "choose another --level"});
+  expect_error(mesh_of("0*x") + box, found + Arguments{"f has this value at all nodes of a grid"});
   expect_error(mesh_of("x^2+y^2+z^2+1e-9") + box, {"no surface f = 0 in the box"});
 }
 
 TEST_F(Program_errors, a_pole_is_no_surface) {
   const Arguments delaunay = {"--method", "delaunay", "--radius", "0.3"};
   const Arguments words = {"no part of the surface f = 0 was found in the box",
-                           "at poles or jumps only; choose another --level or box"};
+                           "only at poles or jumps; choose another --level or box"};
   for (const Arguments& method : {Arguments{}, delaunay}) expect_error(mesh_of("1/x") + box + method, words);
   expect_error(mesh_of("abs(x)/x*(1+y^2)") + box + delaunay, words);
 }

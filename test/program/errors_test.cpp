@@ -18,7 +18,7 @@ using namespace equiaffine::test;
 using namespace errors_fixture;
 
 TEST_F(Program_errors, no_command_is_told_in_one_line) {
-  expect_error({}, {"no command is given; use mesh, evaluate, sample, view, annotate, register or symmetries",
+  expect_error({}, {"the command is missing; use mesh, evaluate, sample, view, annotate, register or symmetries",
                     "see 'equiaffine --help'"});
 }
 
@@ -30,31 +30,31 @@ TEST_F(Program_errors, an_unknown_command_or_option_is_named_and_the_nearest_sug
   expect_error(mesh_of("x") + box + Arguments{"--leve=1"}, {"'--leve=1'", "did you mean '--level'?"});
   expect_error({"--level", "1", "mesh"}, {"'--level'", "before the command"});
   expect_error({"--", "view", "m.ply", "-o"}, {"'--'", "before the command"});
-  expect_error(mesh_of("x") + box + Arguments{"stray"}, {"'stray' is not expected"});
+  expect_error(mesh_of("x") + box + Arguments{"stray"}, {"unexpected word 'stray'"});
   expect_error({"sample", "--volume", "v.nrrd"}, {"unknown option '--volume'"});
 }
 
 TEST_F(Program_errors, a_file_or_formula_without_its_option_is_told_how_to_give_it) {
-  expect_error({"mesh", "bunny.off"},
-               {"'bunny.off' is not expected there", "--fit bunny.off", "--distance-to bunny.off",
-                "'equiaffine annotate bunny.off -o bunny-curvatures.ply'"});
+  expect_error({"mesh", "bunny.off"}, {"unexpected word 'bunny.off'", "--fit bunny.off", "--distance-to bunny.off",
+                                       "'equiaffine annotate bunny.off -o bunny-curvatures.ply'"});
   expect_error({"mesh", "p.xyz"}, {"--fit p.xyz", "points", "annotate p.xyz -o p-curvatures.csv"});
-  expect_error({"mesh", "v.nrrd", "-o", "out.ply"}, {"'v.nrrd' is not expected", "write --volume v.nrrd"});
+  expect_error({"mesh", "v.nrrd", "-o", "out.ply"}, {"unexpected word 'v.nrrd'", "write --volume v.nrrd"});
   expect_error({"mesh", "x^2+y^2=1"}, {"write --function 'x^2+y^2=1'"});
   expect_error({"evaluate", "bunny.off"}, {"--fit bunny.off", "--points FILE", "annotate bunny.off"});
   expect_error({"sample", "bunny.off"}, {"--distance-to bunny.off"});
-  expect_error({"sample", "v.nrrd"}, {"a volume already", "mesh --volume v.nrrd"});
-  expect_error({"mesh", "--fit", "bunny.off", "bunny.ply"}, {"'bunny.ply'", "name the output by -o bunny.ply"});
-  expect_error({"mesh", "--fit", "bunny.off", "-o", "out.ply", "b.html"}, {"name the page by --html b.html"});
-  expect_error({"view", "bunny.ply", "bunny.html"}, {"name the page by -o bunny.html"});
-  expect_error({"annotate", "bunny.off", "-o", "out.ply", "b.png"}, {"name the picture by --png b.png"});
+  expect_error({"sample", "v.nrrd"}, {"to mesh this volume", "mesh --volume v.nrrd"});
+  expect_error({"mesh", "--fit", "bunny.off", "bunny.ply"}, {"'bunny.ply'", "name the output with -o bunny.ply"});
+  expect_error({"mesh", "--fit", "bunny.off", "-o", "out.ply", "b.html"}, {"name the page with --html b.html"});
+  expect_error({"view", "bunny.ply", "bunny.html"}, {"name the page with -o bunny.html"});
+  expect_error({"annotate", "bunny.off", "-o", "out.ply", "b.png"}, {"name the picture with --png b.png"});
   expect_error({"bunny.off"}, {"unknown command 'bunny.off'", "equiaffine annotate bunny.off"});
   expect_error({"mesh", "--function", "x^2", "+", "y^2=1", "-o", "out.ply"},
-               {"'+' is not expected there", "put the formula into quotes"});
-  expect_error({"symmetries", "x^4+y^4=1", "-o", "m.json"}, {"'x^4+y^4=1' is no file", "write --function 'x^4+y^4=1'"});
+               {"unexpected word '+'", "quote a formula with spaces"});
+  expect_error({"symmetries", "x^4+y^4=1", "-o", "m.json"},
+               {"'x^4+y^4=1' is not a file", "write --function 'x^4+y^4=1'"});
   expect_error({"annotate", "v.nrrd", "-o", "out.ply"}, {"'v.nrrd'", "no vertices", "equiaffine mesh --volume v.nrrd"});
   expect_error({"annotate", "x^4+y^4=1", "-o", "out.ply"}, {"'x^4+y^4=1'", "equiaffine mesh --function"});
-  expect_error({"mesh", "my-file"}, {"'my-file' is not expected there; see 'equiaffine mesh --help'"});
+  expect_error({"mesh", "my-file"}, {"unexpected word 'my-file'; see 'equiaffine mesh --help'"});
   expect_error({"v.nrrd"}, {"unknown command 'v.nrrd'", "equiaffine mesh --volume v.nrrd -o v.ply"});
 }
 
@@ -82,10 +82,10 @@ TEST_F(Program_errors, a_file_that_has_nothing_to_show_is_told_which_command_mak
 
 TEST_F(Program_errors, options_of_fits_with_another_source_say_what_that_has) {
   expect_error(mesh_of("x") + box + Arguments{"--scale", "1"},
-               {"--scale", "of a fit", "a formula has no points", "leave it out"});
+               {"--scale", "only to fits", "a formula has no points", "leave it out"});
   expect_error({"mesh", "--volume", "v.nrrd", "--noise", "1", "-o", "out.ply"}, {"--noise", "--smoothing auto"});
   expect_error({"mesh", "--distance-to", "m.off", "--scale", "1", "-o", "out.ply"},
-               {"--scale", "use --fit m.off in place of --distance-to"});
+               {"--scale", "use --fit m.off instead of --distance-to"});
 }
 
 TEST_F(Program_errors, an_unknown_name_in_a_formula_is_shown_with_a_caret) {
@@ -138,7 +138,7 @@ TEST_F(Program_errors, a_resolution_is_between_two_and_what_fits_into_memory) {
 }
 
 TEST_F(Program_errors, a_source_is_given_once_with_what_belongs_to_it) {
-  expect_error({"mesh", "-o", "out.ply"}, {"no source is given"});
+  expect_error({"mesh", "-o", "out.ply"}, {"the source is missing"});
   expect_error(mesh_of("x") + Arguments{"--volume", "v.nrrd"}, {"--function and --volume"});
   expect_error(mesh_of("x") + Arguments{"--function", "y"}, {"--function", "more than once"});
   expect_error({"mesh", "--volume", "v.nrrd", "-o", "out.ply", "--resolution", "64"},
@@ -152,10 +152,10 @@ TEST_F(Program_errors, a_source_is_given_once_with_what_belongs_to_it) {
 }
 
 TEST_F(Program_errors, constants_are_numbers_with_names) {
-  expect_error(mesh_of("a*x") + box + Arguments{"--constants", "a"}, {"--constants", "'a'", "name=value"});
+  expect_error(mesh_of("a*x") + box + Arguments{"--constants", "a"}, {"--constants", "'a'", "NAME=VALUE"});
   expect_error(mesh_of("a*x") + box + Arguments{"--constants", "a=b"}, {"--constants a=b", "'b' is not a number"});
   expect_error(mesh_of("a*x") + box + Arguments{"--constants", "a=1", "a=2"},
-               {"--constants a=2", "has a value already"});
+               {"--constants a=2", "already has a value"});
   expect_error(mesh_of("a*x") + box + Arguments{"--constants", "a=inf"}, {"'inf' is not a finite number"});
   for (const char* bad : {"2*y", "1/0", "2*", "pi*b"})
     expect_error(mesh_of("a*x") + box + Arguments{"--constants", std::string("a=").append(bad)},
@@ -203,19 +203,20 @@ TEST_F(Program_errors, words_to_choose_from_are_listed) {
 TEST_F(Program_errors, an_option_of_the_other_method_is_refused) {
   for (const char* option : {"--angle", "--radius", "--distance", "--sizing", "--clip"})
     expect_error(mesh_of("x") + box + Arguments{option, "1"},
-                 {option, "it is for --method delaunay; add --method delaunay or leave it out"});
+                 {option, "it applies only to --method delaunay; add that or leave it out"});
   const Arguments delaunay = mesh_of("x") + box + Arguments{"--method", "delaunay"};
-  expect_error(delaunay + Arguments{"--vertices", "linear"}, {"--vertices", "it is for --method marching-cubes"});
-  expect_error(delaunay + Arguments{"--resolution", "64"}, {"--resolution", "needs no grid for a formula", "--radius"});
+  expect_error(delaunay + Arguments{"--vertices", "linear"},
+               {"--vertices", "it applies only to --method marching-cubes"});
+  expect_error(delaunay + Arguments{"--resolution", "64"}, {"--resolution", "uses no grid for a formula", "--radius"});
 }
 
 TEST_F(Program_errors, parts_of_volumes_are_for_volumes_with_a_header) {
   for (const Arguments& option : {Arguments{"--component", "1"}, {"--time", "1"}, {"--allow-outside"}})
-    expect_error(mesh_of("x") + box + option, {option[0], "for a --volume"});
+    expect_error(mesh_of("x") + box + option, {option[0], "only to --volume"});
   add_input("v.raw", "01234567");
   expect_error(
       {"mesh", "--volume", "v.raw", "--dims", "2", "2", "2", "--type", "uint8", "--time", "1", "-o", "out.ply"},
-      {"--time", "has none"});
+      {"--time", "no header"});
   expect_error({"mesh", "--volume", "v.mha", "--component", "0", "-o", "out.ply"}, {"--component", "'0'"});
 }
 

@@ -92,7 +92,7 @@ TEST(Expected_duration, more_than_half_of_the_memory_needs_consent) {
     check_memory_of_volume(size, Memory_use::HALF);
     FAIL();
   } catch (const Input_error& error) {
-    EXPECT_NE(std::string(error.what()).find("over half of the"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("more than half of the"), std::string::npos) << error.what();
     EXPECT_NE(std::string(error.what()).find("--yes"), std::string::npos) << error.what();
   }
   EXPECT_THROW(check_memory_of_volume({2 * nodes, nodes, nodes}, Memory_use::ALL), Input_error);

@@ -157,7 +157,7 @@ TEST_F(Program_fit_long, sheets_that_the_grid_does_not_tell_apart_are_warned_of)
   const Arguments remesh = {"mesh", "--fit", "sheets.ply", "-o", "fit.ply", "--stats", "fit.json", "--resolution"};
   const Result coarse = run(remesh + Arguments{"25"});
   EXPECT_EQ(coarse.status, 0);
-  EXPECT_NE(coarse.error.find("points have another sheet of the surface nearer than the steps of the grid"),
+  EXPECT_NE(coarse.error.find("points are nearer to another sheet of the surface than a step of the grid"),
             std::string::npos)
       << coarse.error;
   const Json sheets = Json::parse(file("fit.json"))["fit"]["close_sheets"];
@@ -178,7 +178,7 @@ TEST_F(Program_fit_long, every_reason_for_no_surface_has_its_sentence) {
   expect_error({"mesh", "--fit", "s.ply", "--level", "7", "-o", "a.ply"},
                {"no surface f = 7", "'s.ply'", "two spacings", "nearer to 0"});
   expect_error({"mesh", "--fit", "s.ply", "--box", "5", "6", "5", "6", "5", "6", "-o", "a.ply"},
-               {"no part of the fit to 's.ply' is in the box", "it lies in -1.", "--box that meets that"});
+               {"no part of the fit to 's.ply' is in the box", "it lies in -1.", "--box that overlaps this one"});
   expect_error({"mesh", "--fit", "s.ply", "--box", "-0.1", "0.1", "-0.1", "0.1", "-0.1", "0.1", "-o", "a.ply"},
                {"no part of the surface of the fit to 's.ply'", "more of the data", "--resolution"});
 }
@@ -193,12 +193,13 @@ TEST_F(Program_fit, a_small_box_cuts_a_small_part_out) {
 
 TEST_F(Program_fit, what_cannot_be_used_is_refused) {
   expect_error({"mesh", "--function", "x", "--box", "-1", "1", "-1", "1", "-1", "1", "--scale", "1", "-o", "a.ply"},
-               {"--scale", "polynomials of a fit"});
+               {"--scale", "only to fits"});
   expect_error({"mesh", "--fit", "s.ply", "--distance-to", "s.ply", "-o", "a.ply"}, {"both given"});
   expect_error({"mesh", "--fit", "no.ply", "-o", "a.ply"}, {"no.ply", "no such file"});
-  expect_error({"mesh", "--fit", "s.ply", "-o", "s.ply"}, {"replace"});
+  expect_error({"mesh", "--fit", "s.ply", "-o", "s.ply"}, {"overwrite"});
   expect_error({"mesh", "--fit", "s.ply", "--smoothing", "2", "-o", "a.ply"}, {"--smoothing", "splines"});
-  expect_error({"mesh", "--fit", "s.ply", "--derivatives", "spline", "-o", "a.ply"}, {"--derivatives", "of its own"});
+  expect_error({"mesh", "--fit", "s.ply", "--derivatives", "spline", "-o", "a.ply"},
+               {"--derivatives", "the fit's own"});
   expect_error({"mesh", "--function", "x", "--box", "-1", "1", "-1", "1", "-1", "1", "--attributes",
                 "affine_mean_curvature_noise", "-o", "a.ply"},
                {"noise", "--fit"});

@@ -108,7 +108,7 @@ TEST_F(Program_memory, of_a_library_in_a_child_counts_and_ends_the_command_with_
   const Words evaluate = {"evaluate", "--volume", "v.vti", "--points", "points.csv"};
   const test::Result ended = run(with_limit(evaluate, "200M", "e.csv"));
   EXPECT_EQ(ended.status, 2);
-  const std::string begin = "equiaffine: error: --memory: more than 200M are needed at once", advice = "such as ";
+  const std::string begin = "equiaffine: error: --memory: 200M are too few for the data", advice = "such as ";
   EXPECT_TRUE(ended.error.starts_with(begin)) << ended.error;
   EXPECT_EQ(names(), (Words{"points.csv", "v.vti"}));
   ASSERT_NE(ended.error.find(advice), std::string::npos) << ended.error;
@@ -121,7 +121,7 @@ TEST_F(Program_memory, is_an_amount) {
   for (const char* word : {"700", "M", "-1G", "0M", "1K", "700m", "nanG", "1e30G"}) {
     const test::Result result = run(with_limit(joined(sphere, {"20"}), word, "s.ply"));
     EXPECT_EQ(result.status, 2) << word;
-    EXPECT_NE(result.error.find("write it like 700M or 2G"), std::string::npos) << result.error;
+    EXPECT_NE(result.error.find("write for example 700M or 2G"), std::string::npos) << result.error;
   }
   run_well(with_limit(joined(sphere, {"20"}), "1.5G", "s.ply"));
 }
@@ -134,7 +134,7 @@ TEST_F(Program_memory, says_that_files_may_not_be_large_enough_to_keep_what_does
   const test::Result refused = run(with_limit(joined(sphere, {"640"}), "190M", "s.ply"));
   ::setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.error.find("has no room for what does not fit (File too large)"), std::string::npos)
+  EXPECT_NE(refused.error.find("has no room for data that do not fit into memory (File too large)"), std::string::npos)
       << refused.error;
   EXPECT_EQ(names(), Words());
 }
@@ -144,7 +144,7 @@ TEST_F(Program_memory, is_not_kept_in_a_folder_that_is_itself_in_memory) {
   if (::statfs("/dev/shm", &facts) != 0 || facts.f_type != TMPFS_MAGIC) GTEST_SKIP() << "no such folder is known";
   const test::Result result = run(with_limit(joined(sphere, {"20"}), "1G", "/dev/shm/equiaffine-test.ply"));
   EXPECT_EQ(result.status, 2);
-  EXPECT_NE(result.error.find("'/dev/shm', which is in memory itself; choose one on a disk"), std::string::npos)
+  EXPECT_NE(result.error.find("'/dev/shm': it is itself in memory; choose a folder on a disk"), std::string::npos)
       << result.error;
 }
 
@@ -193,7 +193,7 @@ TEST_F(Scratch_memory_DeathTest, keeps_what_is_in_it_when_its_pages_are_given_ba
       a[i] = static_cast<unsigned char>(i % 251);
       b[i] = static_cast<unsigned char>(i % 13);
     }
-    give_back_reclaimable_memory();
+    release_reclaimable_memory();
     bool is_right = is_scratch_memory(a) && is_scratch_memory(b + size - 1) && !is_scratch_memory(&is_right);
     for (std::size_t i = 0; i < size; ++i) is_right = is_right && a[i] == i % 251 && b[i] == i % 13;
     free_scratch_memory(a);

@@ -137,15 +137,14 @@ TEST_F(Program_register, where_there_is_no_map_it_says_what_to_try) {
     return text.substr(0, text.find('\n'));
   };
   const Arguments plane = Arguments{"--function", "x+2*y-z", "--resolution", "12"} + box;
-  EXPECT_EQ(
-      outcome(plane, plane),
-      "no map found: no points of the two have frames that are determined and agree; try --kind similarity, whose "
-      "frames need fewer derivatives and exist on quadrics, too, or surfaces that have more in common");
+  EXPECT_EQ(outcome(plane, plane),
+            "no map found: the surfaces have no unique frames that agree; try --kind similarity, whose frames need "
+            "fewer derivatives and also exist on quadrics, or surfaces with a larger overlap");
   const std::string narrow = outcome(surface, image, {"--kind", "rigid", "--no-reflections", "--html", "page.html"});
   EXPECT_TRUE(narrow.starts_with("no map found: ")) << narrow;
   EXPECT_TRUE(
       narrow.ends_with("; try --kind similarity, which allows other sizes, or --kind affine, which allows all maps, "
-                       "or the command without --no-reflections, or surfaces that have more in common"))
+                       "or leaving out --no-reflections, or surfaces with a larger overlap"))
       << narrow;
   for (const char* text : {"no map found", "--kind affine, which allows all maps", "1 source, not moved (dark violet)"})
     EXPECT_NE(file("page.html").find(text), std::string::npos) << text;
@@ -163,11 +162,11 @@ TEST_F(Program_register, only_the_identity_says_what_may_find_more) {
 
 TEST_F(Program_register, pages_say_how_good_the_map_is_and_which_color_is_which_surface) {
   registered(surface, image, {"--html", "page.html"});
-  for (const char* text : {"Determinant", "1.06", "Odds", "as good a one is expected 10^-", "On the other surface",
-                           "% of the source", "Rms distance", "0 target (pale yellow), 1 moved source (orange)"})
+  for (const char* text : {"Determinant", "1.06", "equally good maps by chance: 10^-", "Overlap", "% of the source",
+                           "Rms distance", "0 target (pale yellow), 1 moved source (orange)"})
     EXPECT_NE(file("page.html").find(text), std::string::npos) << text;
   registered(surface, image, {"--html", "page.html", "--color", "distance"});
-  EXPECT_NE(file("page.html").find("--color surface tells the two apart"), std::string::npos);
+  EXPECT_NE(file("page.html").find("--color surface to distinguish the two"), std::string::npos);
   run_well(Arguments{"symmetries"} + surface + Arguments{"-o", "m.json", "--html", "page.html"});
   for (const char* text : {"Order", "positive for 1, negative for 0"})
     EXPECT_NE(file("page.html").find(text), std::string::npos) << text;
@@ -189,7 +188,7 @@ TEST_F(Program_register, a_quadric_has_one_map_of_many_with_generators) {
   EXPECT_EQ(found["slippage"]["generators"][0]["matrix"].size(), 3U);
   EXPECT_EQ(found["slippage"]["generators"][0]["translation"].size(), 3U);
   EXPECT_NE(run(Arguments{"register"} + ellipsoid + Arguments{"to"} + ellipsoid + Arguments{"-o", "m.json"})
-                .out.find("slides over itself in 3 ways"),
+                .out.find("slides over itself with 3 degrees of freedom"),
             std::string::npos);
 }
 
@@ -233,7 +232,9 @@ TEST_F(Program_register_long, a_search_of_all_rotations_says_how_far_it_went) {
   const Arguments long_one = Arguments{"--function", "x^4+2*y^4+4*z^4+.3*x*y*z=1", "--kind", "rigid"} + box;
   EXPECT_TRUE(symmetries(long_one)["complete_to"].is_null());
   const std::string text = run_well(Arguments{"symmetries"} + long_one + Arguments{"-o", "maps.json", "--complete"});
-  EXPECT_NE(text.find("all rotations were tried that may move it to within "), std::string::npos) << text;
+  EXPECT_NE(text.find("the search covers all rotations that move the surface onto itself to within "),
+            std::string::npos)
+      << text;
   EXPECT_GT(Json::parse(file("maps.json"))["complete_to"], .01);
 }
 
@@ -290,21 +291,21 @@ TEST_F(Program_register, options_of_both_stand_on_either_side_and_a_value_may_be
 TEST_F(Program_register, what_cannot_be_used_is_refused) {
   run_well(Arguments{"mesh", "-o", "a.ply", "--attributes", "none"} + surface);
   expect_error({"register", "a.ply", "b.ply", "-o", "m.json"},
-               {"'b.ply' is not expected there", "'equiaffine register a.ply to b.ply -o MAP.json'"});
+               {"unexpected word 'b.ply'", "'equiaffine register a.ply to b.ply -o MAP.json'"});
   expect_error({"symmetries", "a.ply", "to", "b.ply", "-o", "m.json"},
-               {"'to' is not expected there", "of one surface", "equiaffine register a.ply to OTHER"});
+               {"unexpected word 'to'", "takes one surface", "equiaffine register a.ply to OTHER"});
   expect_error({"symmetries", "a.ply", "b.ply", "-o", "m.json"}, {"'equiaffine register a.ply to b.ply -o MAP.json'"});
   expect_error({"register", "--points", "a.ply", "to", "b.ply"}, {"'--points'", "--fit FILE"});
   expect_error({"register", "a.ply", "-o", "m.json"}, {"the word 'to'", "missing", "SOURCE to SOURCE"});
-  expect_error({"register", "to", "a.ply", "-o", "m.json"}, {"no source", "side of the word 'to'"});
+  expect_error({"register", "to", "a.ply", "-o", "m.json"}, {"the source is missing", "side of the word 'to'"});
   expect_error({"register", "a.ply", "to", "a.ply"}, {"--output", "missing"});
-  expect_error({"register", "a.ply", "to", "a.ply", "-o", "a.ply"}, {"replace"});
-  expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--moved", "a.ply"}, {"replace"});
+  expect_error({"register", "a.ply", "to", "a.ply", "-o", "a.ply"}, {"overwrite"});
+  expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--moved", "a.ply"}, {"overwrite"});
   expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.ply"}, {"m.ply", ".json"});
   expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--moved", "m.txt"}, {"m.txt", "extension"});
   expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--kind", "afine"}, {"--kind", "afine", "affine"});
   expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--min-overlap", "5"},
-               {"--min-overlap", "'5'", "0 to 1"});
+               {"--min-overlap", "'5'", "between 0 and 1"});
   expect_error({"register", "a.ply", "to", "a.ply", "-o", "m.json", "--number-of-maps", "0"},
                {"--number-of-maps", "'0'"});
   expect_error({"register", "a.ply", "to", "a.foo", "-o", "m.json"}, {"a.foo", "extension"});
@@ -319,11 +320,11 @@ TEST_F(Program_register, what_cannot_be_used_is_refused) {
   expect_error({"symmetries", "none.csv", "-o", "m.json"}, {"none.csv", "no points"});
   expect_error({"symmetries", "a.ply", "-o", "m.json", "--tolerance", "2"}, {"--tolerance", "'2'"});
   expect_error({"symmetries", "a.ply", "-o", "m.json", "--kind", "afine"}, {"--kind", "afine", "affine"});
-  expect_error({"symmetries", "-o", "m.json"}, {"no source", "file"});
+  expect_error({"symmetries", "-o", "m.json"}, {"the source is missing", "file"});
   expect_error({"symmetries", "a.ply", "--box", "5", "6", "5", "6", "5", "6", "-o", "m.json"},
                {"no part of the fit to 'a.ply' is in the box"});
   write_file(folder_ / "three.csv", "x,y,z\n0,0,0\n1,0,0\n0,1,0\n");
-  expect_error({"symmetries", "three.csv", "-o", "m.json"}, {"nothing is known", "three.csv", "more points"});
+  expect_error({"symmetries", "three.csv", "-o", "m.json"}, {"cannot find symmetries", "three.csv", "more points"});
 }
 
 TEST_F(Program_register, symmetries_of_a_formula_are_a_group) {
@@ -410,7 +411,7 @@ TEST_F(Program_register, a_mesh_with_flat_faces_has_its_symmetries_with_planes_a
   write_file(folder_ / "box.off", box_mesh(false));
   const std::string out =
       run_well({"symmetries", "box.off", "--kind", "rigid", "-o", "maps.json", "--html", "page.html"});
-  EXPECT_EQ(out, "8 symmetries, 4 of them change left and right\nwrote maps.json\nwrote page.html\n");
+  EXPECT_EQ(out, "8 symmetries, 4 of them reverse orientation\nwrote maps.json\nwrote page.html\n");
   const Json found = Json::parse(file("maps.json"));
   EXPECT_EQ(found["source"], "the mesh 'box.off'");
   EXPECT_EQ(found["verdict"], "exact");
@@ -440,7 +441,7 @@ TEST_F(Program_register, what_is_not_known_of_symmetries_is_undecided_with_a_rea
 TEST_F(Program_register, rigid_symmetries_are_sought_where_affine_ones_cannot_be) {
   write_file(folder_ / "open.off", box_mesh(true));
   const std::string out = run_well({"symmetries", "open.off", "-o", "maps.json"});
-  EXPECT_TRUE(out.starts_with("rigid ones only, since the mesh bounds no solid")) << out;
+  EXPECT_TRUE(out.starts_with("only rigid symmetries, since affine ones need a mesh that bounds a solid")) << out;
   const Json found = Json::parse(file("maps.json"));
   EXPECT_EQ(found["kind"], "rigid");
   EXPECT_EQ(found["order"], 4);
@@ -450,8 +451,8 @@ TEST_F(Program_register, rigid_symmetries_are_sought_where_affine_ones_cannot_be
 TEST_F(Program_register, symmetries_of_a_piece_say_that_the_surface_goes_on) {
   const std::string out = run_well({"symmetries", "--function", "cos(x)+cos(y)+cos(z)", "--box", "-3.2", "3.2", "-3.2",
                                     "3.2", "-3.2", "3.2", "--kind", "rigid", "-o", "maps.json"});
-  EXPECT_TRUE(out.starts_with("48 symmetries, 24 of them change left and right\n")) << out;
-  EXPECT_NE(out.find("the surface goes on beyond the box"), std::string::npos) << out;
+  EXPECT_TRUE(out.starts_with("48 symmetries, 24 of them reverse orientation\n")) << out;
+  EXPECT_NE(out.find("the surface continues outside the box"), std::string::npos) << out;
   EXPECT_EQ(Json::parse(file("maps.json"))["order_in_box"], 48);
 }
 

@@ -108,12 +108,12 @@ TEST_F(Program_remesh_long, what_has_no_faces_or_no_fit_is_refused) {
   expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--method", "remesh", "--edge-length", "-1"},
                {"--edge-length", "-1"});
   expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--method", "remesh", "--edge-length", "1e-9"},
-               {"a remesh of the data", "10^8 triangles"});
+               {"cannot remesh the data", "10^8 triangles"});
   expect_error({"mesh", "-o", "out.ply", "--fit", "torus.off", "--method", "remesh", "--feature-angle", "200"},
                {"--feature-angle", "'200'"});
   run_well({"mesh", "-o", "points.csv", "--fit", "torus.off", "--resolution", "30", "--attributes", "none"});
   expect_error({"mesh", "-o", "out.ply", "--fit", "points.csv", "--method", "remesh"},
-               {"points.csv", "points without faces", "marching-cubes"});
+               {"points.csv", "no faces", "marching-cubes"});
 }
 
 TEST_F(Program_remesh_long, a_scale_that_is_too_large_for_the_shape_becomes_smaller) {

@@ -57,7 +57,7 @@ TEST_F(Program_volume_io, an_inr_file_may_have_integers_but_no_vectors_and_no_ro
   write_file("a.inr", inr(std::string(inr_size) + "VDIM=1\n" + type, bytes_of(values)));
   EXPECT_EQ(read_volume(path("a.inr")).to_volume().values, std::vector<double>(values.begin(), values.end()));
   write_file("v.inr", inr(std::string(inr_size) + "VDIM=2\n" + type, bytes_of(values) + bytes_of(values)));
-  expect_reading_error("v.inr", "2 numbers per node");
+  expect_reading_error("v.inr", "2 components");
   write_file("r.inr", inr(std::string(inr_size) + "VDIM=1\nRZ=0.5\n" + type, bytes_of(values)));
   expect_reading_error("r.inr", "rotated");
 }
@@ -66,7 +66,7 @@ TEST_F(Program_volume_io, an_inr_file_of_vectors_needs_the_number_of_a_component
   std::vector<float> values(48);
   std::iota(values.begin(), values.end(), 0.F);
   write_file("v.inr", inr(std::string(inr_size) + "VDIM=2\nTYPE=float\nPIXSIZE=32 bits\nCPU=decm\n", bytes_of(values)));
-  expect_reading_error("v.inr", "2 numbers per node; choose one by --component N from 1 to 2");
+  expect_reading_error("v.inr", "2 components; choose one with --component N, from 1 to 2");
   const Volume second = read_volume(path("v.inr"), equiaffine::Samples_in::FILE, {2}).to_volume();
   for (std::size_t n = 0; n < 24; ++n) EXPECT_EQ(second.values[n], double(2 * n + 1));
   EXPECT_THROW(read_volume(path("v.inr"), equiaffine::Samples_in::FILE, {3}), Input_error);
@@ -84,7 +84,7 @@ TEST_F(Program_volume_io, an_inr_header_is_told_what_is_wrong_with_which_field) 
   };
   expect_error_at("XDIM=3\nYDIM=3\nZDIM=2\n" + type, "XDIM, YDIM, ZDIM"); // the file has more data than these
   expect_error_at("XDIM=24\nYDIM=1\nZDIM=1\n" + type, "24 x 1 x 1 nodes");
-  expect_error_at("XDIM=5\nYDIM=3\nZDIM=2\n" + type, "end before 120 bytes");
+  expect_error_at("XDIM=5\nYDIM=3\nZDIM=2\n" + type, "have less than 120 bytes");
   expect_error_at("XDIM=-4\nYDIM=3\nZDIM=2\n" + type, "XDIM '-4'");
   expect_error_at("YDIM=3\nZDIM=2\n" + type, "no XDIM");
   expect_error_at(size + "TYPE=flxxt\nPIXSIZE=32 bits\nCPU=decm\n", "TYPE 'flxxt'");

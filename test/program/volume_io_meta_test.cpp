@@ -38,9 +38,9 @@ TEST_F(Program_volume_io, a_meta_header_with_damaged_fields_is_refused) {
   for (const char* spacing : {"1 1", "1 1 nan", "1 1 inf", "1 1 1e999", "1 1 x"})
     expect_error_of(header("3", "2 2 2", spacing, "LOCAL"), "ElementSpacing '" + std::string(spacing) + "'");
   write_file("list.mhd", header("3", "2 2 2", "1 1 1", "LIST"));
-  expect_reading_error("list.mhd", "names no file");
+  expect_reading_error("list.mhd", "names 0 data files");
   write_file("list.mhd", header("3", "2 2 2", "1 1 1", "LIST") + "slice.raw\n");
-  expect_reading_error("list.mhd", "'slice.raw', is missing");
+  expect_reading_error("list.mhd", "'slice.raw' is missing");
 }
 
 std::string meta_of_slices(const std::string& file, const std::string& more = {}) {
@@ -61,10 +61,10 @@ TEST_F(Program_volume_io, the_slices_that_a_header_names_are_all_there) {
     write_file("right.mhd", meta_of_slices(files));
     EXPECT_EQ(read_volume(path("right.mhd")).to_volume().values, expected) << files;
   }
-  expect_error_of("s%d.raw 1 3 1", "'s3.raw', is missing");
-  expect_error_of("s%d.raw", "'s3.raw', is missing"); // these begin with 1
-  expect_error_of("s%d.raw 0 1 1", "2 files with its data, and its sizes ask for 3");
-  expect_error_of("LIST\ns0.raw\ns1.raw", "2 files");
+  expect_error_of("s%d.raw 1 3 1", "'s3.raw' is missing");
+  expect_error_of("s%d.raw", "'s3.raw' is missing"); // these begin with 1
+  expect_error_of("s%d.raw 0 1 1", "2 data files, but its sizes require 3");
+  expect_error_of("LIST\ns0.raw\ns1.raw", "2 data files");
   for (const char* pattern : {"s%d.raw 0 2", "s%d.raw 0 2 0", "s%s.raw 0 2 1", "s%d%d.raw 0 2 1", "s%d.raw 2 0 1",
                               "s%d.raw 0 2147483647 1", "s%n.raw 0 2 1", "%"})
     expect_error_of(pattern, "the pattern of names '" + std::string(pattern) + "'");
@@ -87,13 +87,13 @@ TEST_F(Program_volume_io, data_outside_of_the_folder_of_their_header_are_read_if
                                  "data file: " +
                                      name + "\n");
     for (const char* header : {"headers/a.mhd", "headers/a.nhdr"}) {
-      expect_reading_error(header, "outside of its folder; put it beside the header, or add --allow-outside");
+      expect_reading_error(header, "outside its folder; move it to the header's folder, or add --allow-outside");
       const Volume volume = read_volume(path(header), equiaffine::Samples_in::FILE, {{}, {}, true}).to_volume();
       EXPECT_EQ(volume.values, std::vector<double>(12, 7)) << name;
     }
   }
   write_file("headers/a.mhd", meta_of_slices("data"));
-  expect_reading_error("headers/a.mhd", "no regular file");
+  expect_reading_error("headers/a.mhd", "not a regular file");
 }
 
 TEST_F(Program_volume_io, a_component_and_a_volume_of_a_4D_file_can_be_chosen) {
@@ -112,8 +112,8 @@ TEST_F(Program_volume_io, a_component_and_a_volume_of_a_4D_file_can_be_chosen) {
       EXPECT_EQ(time.values[n], double(12 + n));
     }
   }
-  expect_reading_error("vectors.mha", "choose one by --component");
-  expect_reading_error("times.mha", "2 volumes, one after the other; choose one by --time N from 1 to 2");
+  expect_reading_error("vectors.mha", "choose one with --component");
+  expect_reading_error("times.mha", "2 volumes; choose one with --time N, from 1 to 2");
 }
 
 TEST_F(Program_volume_io, both_files_of_a_meta_image_replace_the_old_ones_together) {

@@ -78,8 +78,8 @@ TEST_F(Program_volume_io, a_nifti_file_may_have_volumes_and_components_of_which_
       EXPECT_EQ(read_volume(path("times.nii.gz"), where, {{}, n + 1}).to_volume().values, part(n));
       EXPECT_EQ(read_volume(path("vectors.nii"), where, {n + 1}).to_volume().values, part(n));
     }
-  expect_reading_error("times.nii", "3 volumes, one after the other; choose one by --time N from 1 to 3");
-  expect_reading_error("vectors.nii", "3 numbers per node; choose one by --component N from 1 to 3");
+  expect_reading_error("times.nii", "3 volumes; choose one with --time N, from 1 to 3");
+  expect_reading_error("vectors.nii", "3 components; choose one with --component N, from 1 to 3");
 }
 
 /// Replaces a number in the header of a NIfTI file.
@@ -110,7 +110,7 @@ TEST_F(Program_volume_io, a_nifti_header_with_a_damaged_frame_is_refused) {
   expect_error_of(with_number(bytes, 0, std::int32_t(540)), "sizeof_hdr");
   expect_error_of(with_number(bytes, 40, std::int16_t(-3)), "dim[0] '-3'");
   expect_error_of(with_number(bytes, 42, std::int16_t(0)), "dim[1] '0'");
-  expect_error_of(bytes.substr(0, 100), "end before");
+  expect_error_of(bytes.substr(0, 100), "shorter than stated");
 }
 
 TEST_F(Program_volume_io, a_nifti_file_has_the_steps_of_its_sform_sheared_or_not) {
@@ -145,7 +145,7 @@ TEST_F(Program_volume_io, a_nifti_header_that_contradicts_itself_is_refused) {
     expect_error_of(with_number(half, 72, std::int16_t(bits)),
                     "bitpix '" + std::to_string(bits) + "'; correct it to 64");
   expect_error_of(with_number(bytes, 70, std::int16_t(16)), "bitpix '64'; correct it to 32");
-  expect_error_of(with_number(bytes, 70, std::int16_t(3)), "type of numbers is not supported");
+  expect_error_of(with_number(bytes, 70, std::int16_t(3)), "sample type is not supported");
   expect_error_of(with_number(bytes.substr(0, bytes.size() - 340), 108, 0.F), "vox_offset '0'");
   for (const float step : {0.F, -1.F})
     for (const std::size_t axis : {1u, 2u, 3u})

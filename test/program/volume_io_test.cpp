@@ -158,7 +158,7 @@ TEST_F(Program_volume_io, every_type_of_numbers_becomes_double) {
 TEST_F(Program_volume_io, only_volumes_of_scalars_with_two_nodes_per_axis_are_read) {
   write_file("v.nrrd", nrrd("float", "3 2 2 2", "none (1,0,0) (0,1,0) (0,0,1)\nkinds: vector domain domain domain",
                             "0 1 2 3 4 5 6 7 8 9 0 1 2 3 4 5 6 7 8 9 0 1 2 3"));
-  expect_reading_error("v.nrrd", "3 numbers per node");
+  expect_reading_error("v.nrrd", "3 components");
   write_file("flat.nrrd", "NRRD0004\nencoding: ascii\ntype: float\ndimension: 2\nsizes: 2 2\n\n1 2 3 4\n");
   expect_reading_error("flat.nrrd", "2 axes");
   write_file("thin.nrrd", nrrd("float", "4 1 2", "(1,0,0) (0,1,0) (0,0,1)", "1 2 3 4 5 6 7 8"));

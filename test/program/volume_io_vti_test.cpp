@@ -98,13 +98,13 @@ TEST_F(Program_volume_io, a_vti_file_whose_arrays_end_early_is_refused) {
   for (const std::size_t missing : {std::size_t(1), std::size_t(20), std::size_t(96), std::size_t(130)})
     for (const std::string& rest : {std::string(), whole.substr(end)}) {
       write_file("a.vti", whole.substr(0, end - missing - 1) + rest);
-      expect_reading_error("a.vti", "the data are damaged or end before");
+      expect_reading_error("a.vti", "the data are damaged or shorter than stated");
     }
   const std::string text = "RwAAAA=="; // the length 71, and no byte
   for (const std::string& numbers : {text, std::string("R"), std::string()}) {
     write_file("b.vti", vti("<PointData><DataArray type=\"Int16\" Name=\"f\" format=\"binary\">" + numbers +
                             "</DataArray></PointData>"));
-    expect_reading_error("b.vti", "the data are damaged or end before");
+    expect_reading_error("b.vti", "the data are damaged or shorter than stated");
   }
 }
 
@@ -148,36 +148,36 @@ TEST_F(Program_volume_io, a_vti_header_with_damaged_fields_is_refused) {
   write_file("right.vti", vti(unit, "1 1 1", "Float32"));
   EXPECT_EQ(read_volume(path("right.vti")).to_volume().values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8}));
   const std::string largest = "0 2147483647 ";
-  expect_error_of(vti(largest + largest + largest, "1 1 1", "Float32"), "does not fit into memory");
+  expect_error_of(vti(largest + largest + largest, "1 1 1", "Float32"), "do not fit into memory");
   expect_error_of(vti("1 0 0 1 0 1", "1 1 1", "Float32"), "WholeExtent '1 0 0 1 0 1'");
   expect_error_of(vti("0 1 0 1", "1 1 1", "Float32"), "WholeExtent");
   expect_error_of(vti("0 1 0 1 0 4294967297", "1 1 1", "Float32"), "WholeExtent");
   for (const char* spacing : {"1 1 nan", "1 1 inf", "1 1", "1 1 x"})
     expect_error_of(vti(unit, spacing, "Float32"), "Spacing '" + std::string(spacing) + "'");
-  expect_error_of(vti(unit, "1 1 1", "String"), "a DataArray of type 'String'");
+  expect_error_of(vti(unit, "1 1 1", "String"), "a DataArray of the type 'String'");
   expect_error_of("this is no XML", "no element ImageData");
 }
 
 TEST_F(Program_volume_io, a_vti_file_needs_one_array_of_scalars_at_its_points) {
   const std::string numbers = "1 2 3 4 5 6 7 8 9 10 11 12";
   write_file("none.vti", vti(""));
-  expect_reading_error("none.vti", "no numbers at its points or cells");
+  expect_reading_error("none.vti", "no data at its points or cells");
   write_file("two.vti", vti("<PointData>" + data_array("Name=\"f\"", numbers) + data_array("Name=\"g\"", numbers) +
                             "</PointData>"));
-  expect_reading_error("two.vti", "marked as its scalars");
+  expect_reading_error("two.vti", "marked as scalars");
   write_file("marked.vti", vti("<PointData Scalars=\"g\">" + data_array("Name=\"f\"", numbers) +
                                data_array("Name=\"g\"", "0 2 3 4 5 6 7 8 9 10 11 12") + "</PointData>"));
   EXPECT_EQ(read_volume(path("marked.vti")).to_volume().values[0], 0);
   write_file(
       "vector.vti",
       vti("<PointData>" + data_array("Name=\"f\" NumberOfComponents=\"2\"", numbers + " " + numbers) + "</PointData>"));
-  expect_reading_error("vector.vti", "2 numbers per node; choose one by --component N from 1 to 2");
+  expect_reading_error("vector.vti", "2 components; choose one with --component N, from 1 to 2");
   const Volume second = read_volume(path("vector.vti"), equiaffine::Samples_in::FILE, {2}).to_volume();
   EXPECT_EQ(second.values, (std::vector<double>{2, 4, 6, 8, 10, 12, 2, 4, 6, 8, 10, 12}));
   write_file("short.vti", vti("<PointData>" + data_array("Name=\"f\"", "1 2 3 4 5") + "</PointData>"));
   expect_reading_error("short.vti", "damaged");
   write_file("text.vti", "this is no XML");
-  expect_reading_error("text.vti", "damaged");
+  expect_reading_error("text.vti", "ImageData");
 }
 
 #endif

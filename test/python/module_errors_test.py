@@ -20,7 +20,7 @@ class Errors(InTemporaryFolder):
     def test_sentences_name_arguments(self):
         self.assert_sentence(r"(?s)missing operator.*\n2x\n *\^", ea.mesh, "2x", box=1)
         self.assert_sentence("box", ea.mesh, "x")
-        self.assert_sentence("no 'b'", ea.mesh, "x", box=1, constants={"b": 1})
+        self.assert_sentence("not contain 'b'", ea.mesh, "x", box=1, constants={"b": 1})
         self.assert_sentence("unknown name|'a'", ea.mesh, "a*x", box=1)
         self.assert_sentence("method", ea.mesh, "x", box=1, method="magic")
         self.assert_sentence("resolution", ea.mesh, "x", box=1, resolution=1)
@@ -50,7 +50,7 @@ class Errors(InTemporaryFolder):
         self.assert_sentence("box: give", ea.mesh, "x", box=[[-1, -1, -1], [1, 1, 1]])
         self.assert_sentence("box: give", ea.mesh, lambda x, y, z: x, box=[1, -1, 1, -1, 1, -1])
         self.assert_sentence("complex", ea.mesh, np.zeros((3, 3, 3), complex))
-        self.assert_sentence("three dimensions", ea.mesh, np.zeros((3, 3)))
+        self.assert_sentence("three-dimensional", ea.mesh, np.zeros((3, 3)))
         self.assert_sentence("shape", ea.curvatures, [[1, 2], [3, 4]])
         self.assert_sentence("vertex 7", ea.curvatures, np.zeros((3, 3)), [[0, 1, 7]])
         self.assert_sentence("vertex -1", ea.curvatures, np.zeros((3, 3)), [[0, 1, -1]])
@@ -155,7 +155,7 @@ class Errors(InTemporaryFolder):
         surface.save(path)
         before = path.read_bytes()
         broken = ea.Surface(surface.V, surface.F, {"short": np.zeros(3)})
-        self.assert_sentence("'short' has 3 numbers", broken.save, path)
+        self.assert_sentence("'short': give one number for each of the .* vertices, not 3", broken.save, path)
         self.assertEqual(path.read_bytes(), before)
         self.assertEqual(list(self.folder.iterdir()), [path])
 

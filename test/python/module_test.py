@@ -152,7 +152,7 @@ class Sources(InTemporaryFolder):
                         np.median(found["affine_gaussian_curvature_error"]) / 10)
         self.assertNotIn("affine_gaussian_curvature_error", ea.mesh(noisy, level=0.5, attributes="k1"))
         mask = (x**2 + y**2 + z**2 < 0.5).astype(np.uint8)
-        with self.assertWarnsRegex(UserWarning, 'have 2 distinct values only.*smoothing="auto"'):
+        with self.assertWarnsRegex(UserWarning, 'have only 2 distinct values.*smoothing="auto"'):
             ea.mesh(mask, level=0.5)
 
     def test_vectors_have_three_columns(self):

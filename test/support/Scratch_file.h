@@ -10,7 +10,7 @@
 
 namespace equiaffine::test {
 
-/// A file in a folder of its own, which is removed with this object.
+/// A file in a temporary folder, which is removed with this object.
 class Scratch_file {
 public:
   explicit Scratch_file(const std::string& name) {

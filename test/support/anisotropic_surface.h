@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces whose curvatures differ by orders of magnitude: 100 x^2 + y^2 + 0.01 z^2 + 0.05 sin(3xyz) = 1, and one that
-// is longer than wide by a given factor.
+// Surfaces whose curvatures differ by orders of magnitude: 100 x^2 + y^2 + 0.01 z^2 + 0.05 sin(3xyz) = 1, and a surface
+// stretched by a given factor.
 #ifndef EQUIAFFINE_TEST_SUPPORT_ANISOTROPIC_SURFACE_H
 #define EQUIAFFINE_TEST_SUPPORT_ANISOTROPIC_SURFACE_H
 
@@ -24,7 +24,7 @@ struct Anisotropic_surface {
   using Kernel = CGAL::Simple_cartesian<double>;
   auto traits() const { return equiaffine::make_analytic_traits<Kernel>(*this, CGAL::Bbox_3(-1, -2, -20, 1, 2, 20)); }
 
-  /// Spread as the points of a sphere.
+  /// Points distributed like points on a sphere.
   std::vector<Kernel::Point_3> points(std::size_t n) const {
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
@@ -48,7 +48,7 @@ struct Stretched_surface {
     return X * X + y * y + Z * Z + 0.3 * (x * y * z) + 0.2 * (Z * Z * Z) + 0.1 * (X * X * X * X);
   }
 
-  /// On level sets near 1, spread as the points of a sphere before it is stretched.
+  /// Points on level sets near 1, distributed like points on the sphere before it is stretched.
   std::vector<std::array<double, 3>> points(std::size_t n) const {
     std::mt19937 random(23);
     std::normal_distribution<double> normal;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Archetypes of the concepts of functions: classes with what a concept asks for and nothing else. They have no default
-// constructor and no assignment, and where a concept says "convertible to", they return what can be converted once.
-// Something that compiles with an archetype asks for no more than the concept promises.
+// Archetypes of the concepts of functions: classes that meet the requirements of a concept, and nothing more. They have
+// no default constructor and no assignment. For "convertible to" they return an object that can be converted only once.
+// Code that compiles with an archetype needs only what the concept guarantees.
 #ifndef EQUIAFFINE_TEST_SUPPORT_ARCHETYPES_H
 #define EQUIAFFINE_TEST_SUPPORT_ARCHETYPES_H
 
@@ -22,7 +22,7 @@ using equiaffine::Interval;
 using equiaffine::Jet_3;
 using equiaffine::Pack;
 
-/// What can be converted to T, from a temporary, and no more.
+/// A type that is only convertible to T, and only as a temporary.
 template <class T>
 class Convertible_to {
 public:
@@ -48,7 +48,7 @@ struct Torus {
   }
 };
 
-/// The function of all archetypes, for these alone.
+/// The function of all archetypes.
 template <class Kernel, class Shape>
 class Shape_in_box {
 protected:
@@ -180,7 +180,7 @@ private:
   Lattice own_lattice() const { return Lattice({12, 13, 14}, this->bbox()); }
 };
 
-/// A function that has every capability, whose answers no fallback gives.
+/// A function with every capability, whose results differ from those of the fallbacks.
 template <class Kernel>
 struct Capable_function : Implicit_function<Kernel> {
   using Implicit_function<Kernel>::Implicit_function;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A suite of tests for what models of ImplicitFunctionTraits_3 promise beyond its syntax. A parameter of the suite is a
-// type with
+// Tests of the semantic requirements of ImplicitFunctionTraits_3. A parameter of the suite is a type with
 //   using Traits; static Traits make(); static std::vector<Point_3> points();   // in the box, where f is smooth
 //   static constexpr double length;                                             // over which f varies by its own size
 //   static constexpr bool is_unbounded = true;   // optional: bounds say where f has no value, and no more
@@ -45,9 +44,9 @@ TYPED_TEST_P(Conformance, value_is_the_constant_coefficient) {
   }
 }
 
-// The remainder of an expansion of order 4 shrinks by 2^5 when the distance is halved, until rounding is reached. A
-// wrong coefficient of any order would make it shrink by less. A model may say that its derivatives are diffuse, with
-// the part of a gradient by which they differ from those of the value at most.
+// The remainder of an expansion of order 4 decreases by 2^5 when the distance is halved, until rounding dominates. With
+// a wrong coefficient of any order it decreases by less. A model can declare its derivatives as diffuse, with a bound
+// on their relative difference from the derivatives of the value.
 TYPED_TEST_P(Conformance, taylor_is_the_expansion_of_value) {
   const auto traits = TypeParam::make();
   if constexpr (requires { TypeParam::disagreement; }) {

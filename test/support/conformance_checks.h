@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the suite of conformance.h asks of a model or a wrapper at a time.
+// Checks of a model or a wrapper, used by conformance.h.
 #ifndef EQUIAFFINE_TEST_SUPPORT_CONFORMANCE_CHECKS_H
 #define EQUIAFFINE_TEST_SUPPORT_CONFORMANCE_CHECKS_H
 
@@ -32,7 +32,7 @@ inline double evaluate(const Jet_3<double>& jet, double x, double y, double z) {
   return sum;
 }
 
-/// The largest difference between f and its expansion on a set of directions at distance h, relative to the size of the
+/// The maximum difference between f and its expansion in a set of directions at distance h, relative to the size of the
 /// terms.
 template <class Traits>
 double remainder(const Traits& traits, const typename Traits::Point_3& p, double h) {
@@ -63,7 +63,7 @@ Point_3 random_point_in_cube(const Point_3& p, double r, std::mt19937& random) {
   return Point_3(p.x() + r * unit(random), p.y() + r * unit(random), p.z() + r * unit(random));
 }
 
-/// Expects the expansion at q, which is not rounded outwards, in the bounds up to a relative error.
+/// Expects the expansion at q, which is not rounded outward, to be in the bounds up to a relative error.
 template <class Jet, class Bounds, class Point_3>
 void expect_enclosed(const Jet& jet, const Bounds& bounds, double relative_error, const Point_3& q) {
   for (std::size_t c = 0; c < bounds.coefficients().size(); ++c) {
@@ -73,7 +73,7 @@ void expect_enclosed(const Jet& jet, const Bounds& bounds, double relative_error
   }
 }
 
-/// Expects `bounds_on(traits, box)` to enclose values and gradients at points of the box, and to shrink with it.
+/// Expects `bounds_on(traits, box)` to enclose values and gradients at points of the box, and to shrink with the box.
 template <class Model, class Bounds>
 void expect_bounds_of_first_order(const Bounds& bounds_on) {
   const auto traits = Model::make();
@@ -97,7 +97,7 @@ void expect_bounds_of_first_order(const Bounds& bounds_on) {
   }
 }
 
-/// Whether a wrapper is a model of all concepts of which its base is one, and has all its capabilities.
+/// Whether a wrapper models all concepts that its base models, and has all capabilities of its base.
 template <class Wrapper, class Base>
 constexpr bool has_capabilities_of() {
   using namespace equiaffine;
@@ -115,7 +115,7 @@ constexpr bool has_capabilities_of() {
          implies(HasIntersectSegment<Base>, HasIntersectSegment<Wrapper>);
 }
 
-/// The same of what erasure of the type leaves out, too.
+/// The same for the concepts and capabilities that type erasure does not keep.
 template <class Wrapper, class Base>
 constexpr bool has_refinements_of() {
   using namespace equiaffine;
@@ -129,7 +129,7 @@ constexpr bool has_refinements_of() {
          implies(HasSamples<Base>, HasSamples<Wrapper>);
 }
 
-/// Expects a wrapper to answer at the image of a point what the base answers at the point.
+/// Expects the results of a wrapper at the image of a point to be those of the base at the point.
 template <class Wrapper, class Base, class Point_3>
 void expect_capabilities_of(const Wrapper& wrapper, const Point_3& image, const Base& base, const Point_3& p) {
   static_assert(has_capabilities_of<Wrapper, Base>());
@@ -140,7 +140,7 @@ void expect_capabilities_of(const Wrapper& wrapper, const Point_3& image, const 
   EXPECT_EQ(known_bounds(wrapper).are_tight_in_small_boxes, known_bounds(base).are_tight_in_small_boxes);
 }
 
-/// Expects bounds to be equal up to roundings of an interval that is moved.
+/// Expects bounds to be equal up to the rounding of a shifted interval.
 template <class Bounds>
 void expect_equal_bounds(const Bounds& first, const Bounds& second) {
   const auto expect_equal = [](double x, double y) {
@@ -154,7 +154,7 @@ void expect_equal_bounds(const Bounds& first, const Bounds& second) {
   }
 }
 
-/// Expects a wrapper to give the numbers of a model, bit for bit, at many points, on boxes, and on parts of space.
+/// Expects the results of a wrapper to be those of a model, bit for bit, at many points, on boxes, and on restrictions.
 template <class Model, class Wrapper>
 void expect_same_numbers(const Wrapper& wrapper) {
   using namespace equiaffine;
@@ -200,7 +200,7 @@ void expect_same_numbers(const Wrapper& wrapper) {
   }
 }
 
-/// A pair of points of a model at which f has different signs, if there is one.
+/// A pair of points of a model at which f has different signs, or nothing.
 template <class Model>
 std::optional<std::array<typename Model::Traits::Point_3, 2>> segment_with_zero() {
   const auto traits = Model::make();

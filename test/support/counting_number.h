@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A number that counts the floating-point operations done with it: additions, multiplications, divisions and calls of
-// functions one each. Comparisons, absolute values, changes of sign, and what is done with constants alone are free.
+// A number that counts floating-point operations: additions, multiplications, divisions and calls of functions, one
+// each. Comparisons, absolute values, negations, and operations on constants are not counted.
 #ifndef EQUIAFFINE_TEST_SUPPORT_COUNTING_NUMBER_H
 #define EQUIAFFINE_TEST_SUPPORT_COUNTING_NUMBER_H
 

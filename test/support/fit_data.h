@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface of known curvatures that no polynomial of low degree describes, and samples of it.
+// A surface of known curvatures that is not a polynomial of low degree, and samples of it.
 #ifndef EQUIAFFINE_TEST_SUPPORT_FIT_DATA_H
 #define EQUIAFFINE_TEST_SUPPORT_FIT_DATA_H
 
@@ -57,7 +57,7 @@ inline double mean_edge(const Fit_mesh& mesh) {
   return sum / double(mesh.number_of_edges());
 }
 
-/// What the errors of K are at points where the Gaussian curvature is not small, relative to |K| + H^2.
+/// The errors of K relative to |K| + H^2, at points where the Gaussian curvature is not small.
 struct Fit_errors {
   std::vector<double> relative;
   std::size_t covered = 0, trusted = 0, trusted_but_wrong = 0, without_fit = 0;
@@ -70,7 +70,7 @@ struct Fit_errors {
   double part_covered() const { return double(covered) / double(relative.size()); }
 };
 
-/// Compares structures at points with those of the surface at `exact` points, which differ from them by noise.
+/// Compares structures at noisy points with those of the surface at the `exact` points.
 inline Fit_errors errors_of_fit(const std::vector<Fitted_structure_3<double>>& structures,
                                 std::span<const Fit_kernel::Point_3> exact) {
   Fit_errors errors;
@@ -96,7 +96,7 @@ inline Fit_errors errors_of_fit(const std::vector<Fitted_structure_3<double>>& s
   return errors;
 }
 
-/// The part of the vertices at which numbers differ by no more than the errors.
+/// The fraction of vertices at which numbers differ by at most the errors.
 template <class Difference, class Error>
 double part_within(std::size_t count, const Difference& difference, const Error& error) {
   double within = 0, all = 0;

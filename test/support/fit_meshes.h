@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshes for tests of remeshes on fits, and what they have to keep.
+// Meshes for tests of remeshing by fits, and checks of their invariants.
 #ifndef EQUIAFFINE_TEST_SUPPORT_FIT_MESHES_H
 #define EQUIAFFINE_TEST_SUPPORT_FIT_MESHES_H
 
@@ -46,7 +46,7 @@ inline Outcomes outcomes_of(Mesh& mesh) {
   return mesh.add_property_map<Mesh::Vertex_index, Fit_outcome>("v:outcome", Fit_outcome::CROSSING).first;
 }
 
-/// The numbers of a report are those of the outcomes of vertices.
+/// Expects the counts of a report to be those of the outcomes of the vertices.
 inline void expect_counted(const Mesh& mesh, const Outcomes& outcomes, const equiaffine::Fit_move_report& report) {
   std::array<std::size_t, equiaffine::number_of_fit_outcomes> number_of = {};
   for (const auto v : mesh.vertices()) ++number_of[std::size_t(outcomes[v])];
@@ -84,7 +84,7 @@ inline double distance_from_torus(const Point_3& p) {
   return std::abs(std::hypot(std::hypot(p.x(), p.y()) - 1, p.z()) - .4);
 }
 
-/// Points of the fit are on the torus to within its error, less than a tenth of that of the triangles.
+/// Expects the points of the fit to be on the torus within the error of the fit, a tenth of that of the triangles.
 inline void expect_on_fit(const Point_3& p, const Fit& fit) {
   EXPECT_LT(std::abs(fit.taylor(p).value()), 1e-12);
   EXPECT_LT(distance_from_torus(p), 1e-4);

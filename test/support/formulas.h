@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Formulas, and meshes of them by code that the library has compiled: a test that only needs a surface does not
-// instantiate Marching Cubes.
+// Formulas, and their meshes by compiled code of the library, so that tests that only need a surface do not instantiate
+// Marching Cubes.
 #ifndef EQUIAFFINE_TEST_SUPPORT_FORMULAS_H
 #define EQUIAFFINE_TEST_SUPPORT_FORMULAS_H
 

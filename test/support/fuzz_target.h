@@ -2,12 +2,12 @@
 #ifndef EQUIAFFINE_TEST_SUPPORT_FUZZ_TARGET_H
 #define EQUIAFFINE_TEST_SUPPORT_FUZZ_TARGET_H
 
-// A fuzz target is a function of the bytes of an input, which throws where they show a defect:
+// A fuzz target is a function of the bytes of an input that throws if it finds a defect:
 //
 //     EQUIAFFINE_FUZZ_TARGET(name) { read(input); }
 //
-// Compiled with EQUIAFFINE_FUZZING it is the entry point of libFuzzer, which test/long/fuzz runs. Otherwise it is a
-// test that gives it the files of its corpus, test/data/fuzz/NAME, and all their beginnings.
+// Compiled with EQUIAFFINE_FUZZING, it is the entry point of libFuzzer, run by test/long/fuzz. Otherwise it is a test
+// that runs the files of its corpus, test/data/fuzz/NAME, and all their prefixes.
 
 #include <equiaffine/base/Input_error.h>
 
@@ -18,13 +18,13 @@
 
 namespace equiaffine::test {
 
-/// Throws if something that always holds does not.
+/// Throws if an invariant does not hold.
 inline void expect(bool holds, const std::string& what_holds) {
   if (!holds) throw std::logic_error("it does not hold that " + what_holds);
 }
 
-/// Runs `read` and returns whether it accepts its input. What it refuses, it has to refuse with what is wrong and,
-/// after a colon or semicolon, what to do.
+/// Runs `read` and returns whether it accepts its input. A rejection must have a message with the problem and, after a
+/// colon or semicolon, what to do.
 template <class Read>
 bool accepts(const Read& read) {
   try {

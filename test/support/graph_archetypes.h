@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Archetypes of CGAL's graphs, of ranges and of property maps: classes with what is asked of them and nothing else, as
-// those of archetypes.h are for functions.
+// Archetypes of CGAL's graphs, of ranges and of property maps: classes that meet their requirements and nothing more,
+// like those of archetypes.h for functions.
 #ifndef EQUIAFFINE_TEST_SUPPORT_GRAPH_ARCHETYPES_H
 #define EQUIAFFINE_TEST_SUPPORT_GRAPH_ARCHETYPES_H
 
@@ -18,7 +18,7 @@
 
 namespace archetypes {
 
-/// A descriptor of CGAL's concept, a kind of elements of a graph.
+/// A model of CGAL's concept Descriptor, for one kind of elements of a graph.
 template <int Kind>
 class Descriptor {
 public:
@@ -34,7 +34,7 @@ using Vertex = Descriptor<0>;
 using Halfedge = Descriptor<1>;
 using Face = Descriptor<2>;
 
-/// The end of a range, of another type than its iterators.
+/// The end of a range, whose type differs from that of its iterators.
 class Sentinel {
 public:
   Sentinel() = default;
@@ -45,7 +45,7 @@ private:
   std::size_t index_ = 0;
 };
 
-/// A forward iterator to values that it makes.
+/// A forward iterator that returns temporary values.
 template <class Value>
 class Iterator {
 public:
@@ -71,8 +71,8 @@ private:
   std::size_t index_ = 0;
 };
 
-/// An archetype of CGAL's FaceListGraph, as far as cycles around faces are concerned. It has no points, and ranges of
-/// its elements are pairs, as in the Boost Graph Library.
+/// An archetype of CGAL's FaceListGraph, with the part of its interface that is needed for cycles around faces. It has
+/// no points. Ranges of its elements are pairs, as in the Boost Graph Library.
 class Graph {
 public:
   Graph(std::size_t number_of_vertices, std::vector<std::vector<std::size_t>> polygons)
@@ -103,8 +103,8 @@ private:
   std::vector<std::size_t> first_, target_, next_;
 };
 
-/// An archetype of a forward range: its functions are found by their arguments, take no constants, and its end is of
-/// another type than its beginning.
+/// An archetype of a forward range. Its functions are found by argument-dependent lookup and do not accept constant
+/// ranges, and the type of its end differs from that of its beginning.
 class Points {
 public:
   explicit Points(std::size_t size) : size_(size) {}
@@ -117,7 +117,7 @@ private:
   std::size_t size_;
 };
 
-/// An archetype of a readable property map, of what a function returns.
+/// An archetype of a readable property map that returns the result of a function.
 template <class Key, class Function>
 class Readable_map {
 public:
@@ -139,7 +139,7 @@ auto readable_map(Function function) {
   return Readable_map<Key, Function>(std::move(function));
 }
 
-/// An archetype of a writable property map, which puts values into a map of the caller.
+/// An archetype of a writable property map that stores values in a map of the caller.
 template <class Key, class Value>
 class Writable_map {
 public:
@@ -157,7 +157,7 @@ private:
   std::map<Key, Value>* values_;
 };
 
-/// A vector that is made of three numbers.
+/// A vector that is constructed from three numbers.
 class Vector {
 public:
   Vector(double x, double y, double z) : x_(x), y_(y), z_(z) {}

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-/// Vertices of the surface on a lattice of n nodes in the longest direction, all of them or a random part.
+/// All vertices, or a random subset, of the surface on a lattice of n nodes in the longest direction.
 template <class Traits>
 std::vector<typename Traits::Point_3> points_on_surface(const Traits& traits, std::size_t n, std::size_t most = 5000,
                                                         unsigned seed = 1) {

@@ -18,10 +18,10 @@ struct Grid {
   std::size_t index(std::size_t i, std::size_t j, std::size_t k) const { return (k * size[1] + j) * size[0] + i; }
 };
 
-/// Grids that are hard for Marching Cubes:
+/// Difficult grids for Marching Cubes:
 /// closed  3 to 7 nodes along each axis, inside random, negative on the boundary: a closed surface
 /// open    the same, random everywhere: a surface with boundary
-/// check   like closed, but the signs alternate inside: every inner cell has six ambiguous faces
+/// check   like closed, but with alternating signs inside: every inner cell has six ambiguous faces
 /// cell    one random cell
 /// case13  one cell with alternating signs
 /// ties    like closed, but with few different values inside, zero among them

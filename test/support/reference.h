@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rows of data/affine_structure.csv: local structure at 30 digits from a method that uses no formula for implicit
-// functions (graph heights by root finding, numerical differentiation at 80 digits).
+// The rows of data/affine_structure.csv: local structure with 30 digits, computed without formulas for implicit
+// functions (graph heights by root finding, numerical differentiation with 80 digits).
 #ifndef EQUIAFFINE_TEST_SUPPORT_REFERENCE_H
 #define EQUIAFFINE_TEST_SUPPORT_REFERENCE_H
 

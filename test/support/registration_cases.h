@@ -32,7 +32,7 @@ struct Surface {
   Formula traits() const { return Formula(equiaffine::Expression_3(formula), box); }
 };
 
-/// The numbers that random formulas and maps are made of, the same with every compiler.
+/// Random numbers for formulas and maps, the same with every compiler.
 class Random {
 public:
   explicit Random(unsigned seed) : engine_(seed) { engine_.discard(10); }
@@ -109,7 +109,7 @@ inline Eigen::Matrix3d matrix_of(const Map& map) {
   return Eigen::Matrix3d::NullaryExpr([&](Eigen::Index i, Eigen::Index j) { return map.m(int(i), int(j)); });
 }
 
-/// A map with the given ratio of singular values and |det|, a reflection every other time.
+/// A map with the given ratio of singular values and |det|; every second map is a reflection.
 inline Map random_map(Random& random, double condition, double determinant) {
   const double middle = random.uniform(-0.5, 0.5), mean = middle / 3;
   const Eigen::Vector3d logs = std::log(condition) * Eigen::Vector3d(0.5 - mean, middle - mean, -0.5 - mean);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Functions made of others, for tests and benchmarks of registration: a piece, several beside
-// each other, and one whose derivatives are wrong.
+// Functions derived from others, for tests and benchmarks of registration: a piece of one, several in disjoint boxes,
+// and one with wrong derivatives.
 #ifndef EQUIAFFINE_TEST_SUPPORT_REGISTRATION_TRAITS_H
 #define EQUIAFFINE_TEST_SUPPORT_REGISTRATION_TRAITS_H
 
@@ -14,7 +14,7 @@
 
 namespace registration_cases {
 
-/// A function on the side n . p <= offset of a plane.
+/// A function restricted to the side n . p <= offset of a plane.
 template <class Base>
 struct Piece {
   using FT = double;
@@ -44,7 +44,7 @@ private:
   static double nan() { return std::numeric_limits<double>::quiet_NaN(); }
 };
 
-/// Several functions, each in its own box. The boxes do not meet.
+/// Several functions, each in its own box. The boxes are disjoint.
 template <class Base>
 struct Scene {
   using FT = double;
@@ -81,7 +81,7 @@ private:
   static double nan() { return std::numeric_limits<double>::quiet_NaN(); }
 };
 
-/// A function whose derivatives of orders 2 to 4 are wrong by a random part, the same within a cell.
+/// A function whose derivatives of orders 2 to 4 have random relative errors, which are constant within a cell.
 template <class Base>
 struct Disturbed {
   using FT = double;

@@ -36,7 +36,7 @@ inline void write_file(const std::filesystem::path& path, const std::string& tex
   std::ofstream(path, std::ios::binary) << text;
 }
 
-/// The text without lines that say how far a long computation is: their number depends on the computer.
+/// The text without progress lines, whose number depends on the computer.
 inline std::string without_progress(const std::string& text) {
   std::istringstream lines(text);
   std::string rest;
@@ -46,11 +46,11 @@ inline std::string without_progress(const std::string& text) {
 }
 
 struct Result {
-  int status = -1; ///< the exit status; -1 for a program that a signal ended
+  int status = -1; ///< the exit status; -1 if the program was terminated by a signal
   std::string out, error;
 };
 
-/// Runs the program itself, in a folder of its own that is empty at first.
+/// Runs the program in a temporary folder, which is empty at first.
 class Program_test : public ::testing::Test {
 protected:
   Program_test() {
@@ -62,8 +62,8 @@ protected:
   }
   ~Program_test() override { std::filesystem::remove_all(root_); }
 
-  /// Runs the program to its end. `standard_output` is a file to write to, such as a device, instead of a temporary
-  /// one.
+  /// Runs the program until it exits. Standard output is written to `standard_output`, for example a device, or to a
+  /// temporary file.
   Result run(std::vector<std::string> arguments, const std::string& input = {},
              const std::string& standard_output = {}) const {
     Result result = wait_for(start(std::move(arguments), input, standard_output));
@@ -83,7 +83,7 @@ protected:
     argv.push_back(nullptr);
     const pid_t child = ::fork();
     if (child == 0) {
-      for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL); // the parent may ignore them
+      for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL); // the parent can ignore them
       redirect(in, O_RDONLY, STDIN_FILENO);
       redirect(out, O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
       redirect(error, O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
@@ -100,7 +100,7 @@ protected:
             without_progress(read_file(root_ / "error"))};
   }
 
-  /// Runs the program, expects that nothing goes wrong, and returns what is on standard output.
+  /// Runs the program, expects success, and returns its standard output.
   std::string run_well(const std::vector<std::string>& arguments, const std::string& input = {}) const {
     const Result result = run(arguments, input);
     EXPECT_EQ(result.status, 0) << result.error;

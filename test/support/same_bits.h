@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-/// Whether two numbers or expansions have the same bits, NaN and signs of zeros included.
+/// Whether two numbers or expansions have the same bits, including NaN and signs of zeros.
 template <class T>
 bool same_bits(const T& a, const T& b) {
   return std::memcmp(&a, &b, sizeof(T)) == 0;

@@ -22,7 +22,7 @@ struct Solid {
   std::vector<std::vector<std::size_t>> polygons;
 };
 
-/// A prism over a polygon that its first corner sees as a whole; the upper one is `part` as large.
+/// A prism over a polygon that is star-shaped from its first corner; the upper polygon is scaled by `part`.
 inline Solid prism(const std::vector<std::array<double, 2>>& base, double height, double part = 1) {
   const std::size_t n = base.size();
   Solid solid;
@@ -39,7 +39,7 @@ inline Solid prism(const std::vector<std::array<double, 2>>& base, double height
   return solid;
 }
 
-/// A prism whose upper polygon is turned by a `part` of the angle of a side: an antiprism for 1/2.
+/// A prism whose upper polygon is rotated by the fraction `part` of the angle of a side; an antiprism for 1/2.
 inline Solid twisted_prism(const std::vector<std::array<double, 2>>& base, double height, double part) {
   const std::size_t n = base.size();
   const double turn = 2 * std::numbers::pi * part / double(n), c = std::cos(turn), s = std::sin(turn);
@@ -72,7 +72,7 @@ inline Solid tetrahedron() {
   return {{{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 }
 
-/// A cube of side 2 without the tip at a corner, `cut` along its edges.
+/// A cube of side 2 without a corner, which is cut off at the distance `cut` along its edges.
 inline Solid cube_without_corner(double cut) {
   const double c = 1 - cut;
   return {{{-1, -1, -1},
@@ -93,10 +93,10 @@ inline Solid moved(Solid solid, const Map& map) {
   return solid;
 }
 
-/// An L with legs of different lengths; tapered, it has no symmetry.
+/// An L with legs of different lengths. If tapered, it has no symmetries.
 inline Solid L(double part = 1) { return prism({{.4, .4}, {.4, 1.5}, {0, 1.5}, {0, 0}, {1, 0}, {1, .4}}, .5, part); }
 
-/// The part of a surface, without the cut, on the side of a plane that a direction points away from.
+/// The part of a surface on the negative side of a plane with this normal direction, without the section.
 inline Solid clipped(const Solid& solid, const Point_3::R::Vector_3& direction, double limit) {
   Solid result;
   const auto height = [&](std::size_t i) { return direction * (solid.points[i] - CGAL::ORIGIN) - limit; };
@@ -110,7 +110,7 @@ inline Solid clipped(const Solid& solid, const Point_3::R::Vector_3& direction, 
         if (a <= 0) part.push_back(result.points.size()), result.points.push_back(solid.points[i]);
         if ((a <= 0) == (b <= 0)) continue;
         part.push_back(result.points.size());
-        // An edge is cut at the same point from both of its sides.
+        // Both faces of an edge must compute the same intersection point.
         const auto [p, q, x, y] = i < j ? std::tuple(i, j, a, b) : std::tuple(j, i, b, a);
         result.points.push_back(solid.points[p] + x / (x - y) * (solid.points[q] - solid.points[p]));
       }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A mesh whose data choose a scale that is too large for parts of it.
+// A mesh for which the automatic scale is too large for some parts.
 #ifndef EQUIAFFINE_TEST_SUPPORT_TORI_H
 #define EQUIAFFINE_TEST_SUPPORT_TORI_H
 
@@ -13,7 +13,7 @@
 
 namespace equiaffine::test {
 
-/// A torus of 64 rows of 12 points, whose ring of radius 0.4 and tube of radius 0.08 wave.
+/// A wavy torus of 64 rows of 12 points, with a ring of radius 0.4 and a tube of radius 0.08.
 inline std::array<double, 3> point_of_wavy_torus(int i, int j) {
   constexpr double ring = .4, tube = .08, wave = .25;
   const double u = 2 * std::numbers::pi * i / 64, v = 2 * std::numbers::pi * j / 12;
@@ -22,13 +22,13 @@ inline std::array<double, 3> point_of_wavy_torus(int i, int j) {
   return {from_axis * std::cos(u), from_axis * std::sin(u), radius * std::sin(v) + wave * ring * std::sin(4 * u)};
 }
 
-/// A torus of 60 rows of 30 points, whose tube of radius 0.5 around a ring of radius 1 has noise.
+/// A noisy torus of 60 rows of 30 points, with a ring of radius 1 and a tube of radius 0.5.
 inline std::array<double, 3> point_of_noisy_torus(int i, int j, double noise) {
   const double u = 2 * std::numbers::pi * i / 60, v = 2 * std::numbers::pi * j / 30, radius = .5 + noise;
   return {(1 + radius * std::cos(v)) * std::cos(u), (1 + radius * std::cos(v)) * std::sin(u), radius * std::sin(v)};
 }
 
-/// An OFF file of a large noisy torus, which is seen best at a large scale, and of four small wavy ones.
+/// An OFF file of a large noisy torus, which needs a large scale, and of four small wavy tori.
 inline std::string tori() {
   std::ostringstream points, triangles;
   points.precision(17);

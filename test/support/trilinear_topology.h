@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The topology of the zero set of the trilinear interpolant of a grid, without making a mesh.
+// The topology of the zero set of the trilinear interpolant of a grid, computed without a mesh.
 //
 // P and N are where f >= 0 and f <= 0. The box is contractible, so the zero set S, their intersection, has
 // b0(S) = b0(P) + b0(N) - 1 and chi(S) = chi(P) + chi(N) - 1 (Mayer, Vietoris). chi(P) is the alternating sum over the
@@ -44,7 +44,7 @@ struct Slice {
     else join(1, 2);
   }
 
-  /// Makes positive and joins what is so in the other slice.
+  /// Marks corners that are positive in the other slice as positive, and joins those that it joins.
   void unite(const Slice& other) {
     for (std::size_t c = 0; c < 4; ++c) is_positive[c] = is_positive[c] || other.is_positive[c];
     for (std::size_t c = 0; c < 4; ++c) components.join(c, other.components.root(c));
@@ -62,8 +62,8 @@ struct Slice {
   }
 };
 
-/// chi of P in a cell; joins the corners that are connected in it. Nothing if the order of the slices in which the
-/// picture changes is not certain.
+/// chi of P in a cell; joins the corners that are connected in it. Nothing if the order of the critical slices is
+/// uncertain.
 template <class Join>
 std::optional<long> sweep(const std::array<Real, 8>& f, Join join) {
   std::array<Real, 4> slope;
@@ -115,8 +115,8 @@ inline std::optional<Trilinear_topology> of_positive_part(const Grid& grid, doub
   const auto& n = grid.size;
   Partition nodes(grid.values.size());
   long chi = 0;
-  // The loops visit every cell, face, edge and node that is not in the boundary of the grid: bit a of `extent` says
-  // whether it extends along axis a.
+  // The loops visit every cell, face, edge and node in the interior of the grid. Bit a of `extent` is set if it extends
+  // along axis a.
   for (std::size_t extent = 0; extent < 8; ++extent) {
     const auto along = [&](std::size_t axis) { return extent >> axis & 1; };
     std::vector<std::size_t> axes;
@@ -154,7 +154,8 @@ inline std::optional<Trilinear_topology> of_positive_part(const Grid& grid, doub
 
 } // namespace trilinear_topology
 
-/// The topology of the zero set, found by a sweep along `axis`; nothing if a value is zero or a saddle nearly so.
+/// The topology of the zero set, found by a sweep along `axis`. Nothing if a value is zero, or a saddle value nearly
+/// zero.
 inline std::optional<Trilinear_topology> topology_of_trilinear_surface(const Grid& grid, std::size_t axis) {
   for (const double x : grid.values)
     if (x == 0) return std::nullopt;

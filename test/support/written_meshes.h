@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshes that the program wrote, read again.
+// Reads meshes that the program has written.
 #ifndef EQUIAFFINE_TEST_SUPPORT_WRITTEN_MESHES_H
 #define EQUIAFFINE_TEST_SUPPORT_WRITTEN_MESHES_H
 
@@ -18,7 +18,7 @@ using Mesh = equiaffine::Annotated_mesh_3<CGAL::Simple_cartesian<double>>;
 
 class Written_meshes_test : public Program_test {
 protected:
-  /// Expects an error of one line with these words, and that no file is written.
+  /// Expects an error message of one line that contains these words, and no output file.
   void expect_error(const Arguments& arguments, const Arguments& words) const {
     const auto before = names();
     const Result result = run(arguments);

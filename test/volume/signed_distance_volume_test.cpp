@@ -281,23 +281,22 @@ TEST(Distance_function_3, a_mesh_with_other_faces_than_triangles_is_refused) {
 TEST(Distance_function_3, a_mesh_that_intersects_itself_is_refused_with_a_place) {
   Mesh mesh = cube(0, 2);
   add_cube(mesh, 1, 3);
-  expect_refusal(mesh, "the mesh has degenerate triangles or intersects itself, near (", ")",
-                 ", so that its inside is not defined: repair it first");
+  expect_refusal(mesh, "the mesh has degenerate triangles or intersects itself near (", ")",
+                 ", so its inside is not defined: repair it first");
 }
 
 TEST(Distance_function_3, a_mesh_with_a_degenerate_triangle_is_refused) {
   Mesh mesh = cube(0, 1);
   mesh.point(Mesh::Vertex_index(7)) = mesh.point(Mesh::Vertex_index(3));
-  expect_refusal(mesh, "the mesh has degenerate triangles or intersects itself, near (", "1, 1, 0)",
-                 ", so that its inside is not defined: repair it first");
+  expect_refusal(mesh, "the mesh has degenerate triangles or intersects itself near (", "1, 1, 0)",
+                 ", so its inside is not defined: repair it first");
 }
 
 TEST(Distance_function_3, a_mesh_with_a_triangle_whose_squared_area_vanishes_by_rounding_is_refused) {
   const auto expect_too_small = [](const Mesh& mesh, const std::string& end_of_point) {
-    expect_refusal(
-        mesh, "the mesh has a triangle too small to measure from, near (", end_of_point,
-        ", the square of its area leaves the range of double precision: choose a smaller unit, or remove the "
-        "triangle if the others are larger");
+    expect_refusal(mesh, "the mesh has a triangle near (", end_of_point,
+                   " whose squared area underflows double precision: choose a smaller unit of length, or remove the "
+                   "triangle if the others are larger");
   };
   for (const double tiny : {1e-77, 1e-100, 1e-300}) expect_too_small(cube(0, tiny), ")");
   Mesh sliver; // a tetrahedron, to which a triangle of height 1e-170 is added at one side

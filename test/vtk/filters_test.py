@@ -171,7 +171,7 @@ class Surface(unittest.TestCase):
 
         mesh, messages = with_warnings(ball(mask), Level=0.5)
         self.assertEqual(mesh.GetPointData().GetScalars().GetName(), "mean_curvature")
-        self.assertIn("the samples have 2 distinct values only, and curvatures are those of the steps between them",
+        self.assertIn("the samples have only 2 distinct values, and the curvatures show the steps between them",
                       messages[0])
         messages = with_warnings(ball(mask), Level=0.5, AutomaticSmoothing=True)[1]
         self.assertFalse(any("distinct values" in message for message in messages))
@@ -311,12 +311,13 @@ class Surface(unittest.TestCase):
             data.SetName("samples")
             image.GetPointData().SetScalars(data)
 
-        cases = [(without_scalars, {}, "no such point array"), (one_slab, {}, "1 point along an axis"),
-                 (nan, {}, "no point of the image has a finite number"), (strings, {}, "no such point array"),
-                 (short, {}, "no number for each point"), (None, {"Attributes": "foo"}, "unknown attribute 'foo'"),
-                 (None, {"Attributes": "vertex_area"}, "a whole mesh"),
+        cases = [(without_scalars, {}, "the selected point array does not exist"),
+                 (one_slab, {}, "too few points of the image along axis k: 1, but"),
+                 (nan, {}, "no finite values"), (strings, {}, "the selected point array does not exist"),
+                 (short, {}, "not have one tuple per point"), (None, {"Attributes": "foo"}, "unknown attribute 'foo'"),
+                 (None, {"Attributes": "vertex_area"}, "a mesh with faces"),
                  (None, {"SplineDegree": 6}, "not 5, 7 or 9"), (None, {"Level": float("nan")}, "not finite"),
-                 (None, {"ArrayComponent": 2}, "has 1 component, of which number 2 is none")]
+                 (None, {"ArrayComponent": 2}, "has 1 component, so there is no component 2")]
         for change, properties, words in cases:
             image = ellipsoid()
             if change:

@@ -8,12 +8,14 @@
 >>> round(float(ball["affine_gaussian_curvature"].mean()), 9)  # r^-3
 0.125
 
-`mesh` makes the surface of a formula, a volume, a function or a fit; `curvatures` are those of a mesh or of points; `fit`
-makes a function of them; `evaluate` has the numbers at points; `register` finds the affine map between two surfaces,
-`symmetries` those of one. `read` and `write` know files, `view` shows a surface.
+- `mesh` extracts a level set of a formula, a volume, a function or a fit.
+- `curvatures` estimates the curvatures of a mesh or of points; `fit` returns a function fitted to them.
+- `evaluate` computes values and curvatures at given points.
+- `register` finds the affine map between two surfaces, `symmetries` the maps of a surface onto itself.
+- `read` and `write` handle files; `view` shows a surface.
 
-What is wrong with an argument is a `ValueError` with a sentence. Long functions let other threads run, and Ctrl-C ends
-them. Their argument `progress` is a function of the number of a stage, the steps of it that are done, and all of them.
+An invalid argument raises a `ValueError` that explains the mistake. Long computations release the GIL, can be
+interrupted with Ctrl-C, and call their argument `progress` as `progress(stage, done, total)`.
 """
 import atexit as _atexit
 

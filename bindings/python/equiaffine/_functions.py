@@ -29,48 +29,53 @@ def mesh(f, *, level=0, box=None, resolution=None, method="marching-cubes", spac
     Parameters
     ----------
     f : str, numpy.ndarray, Volume, callable or Fit
-        A formula in x, y, z; samples in an array of three dimensions, which must not change during the call; a function,
-        which is called for each x of the grid with arrays x, y, z of the other two axes, and returns a number for each
-        point; or a fit. Derivatives of samples are those of a spline. NaN means no sample: nothing is known within 7 voxels
-        of it, and of what smoothing reaches, so that vertices there are OUTSIDE.
+        One of:
+
+        - a formula in x, y, z;
+        - samples: a three-dimensional array, which must not change during the call. Derivatives are those of a spline.
+          NaN marks missing samples. Vertices within 7 voxels of one, plus the reach of smoothing, are OUTSIDE;
+        - a function. It is called once for each x of the grid, with arrays x, y, z that cover the other two axes, and
+          returns one number per point;
+        - a fit.
     level : float
-        The value of f on the surface, 0 by default.
+        Value of f on the surface, 0 by default.
     box : float or sequence of 6 floats
-        xmin, xmax, ymin, ymax, zmin, zmax, or a number for a cube around the origin. A formula and a function need it;
-        for a fit it is that of the data by default.
+        xmin, xmax, ymin, ymax, zmin, zmax, or a number for a cube around the origin. Required for a formula or a
+        function; a fit defaults to the box of its data.
     resolution : int or sequence of 3 ints
-        Nodes along each axis, 2 or more: by default 64 for a formula or a function, 129 for a fit. Samples are their
-        own grid.
+        Nodes along each axis, at least 2; by default 64 for a formula or a function, 129 for a fit. Not for samples,
+        which have their own grid.
     method : {"marching-cubes", "delaunay"}
-        How the surface is sampled.
+        How the surface is meshed.
     spacing, origin, direction : sequences of floats
-        Where samples are, see `Volume`: steps of 1 from the origin along the axes by default.
+        Placement of samples, see `Volume`; by default steps of 1 along the axes, starting at the origin.
     attributes : str or sequence of str
-        "basic" is normal, k1, k2, gaussian_curvature, mean_curvature, conormal, affine_normal, affine_gaussian_curvature,
+        "basic": normal, k1, k2, gaussian_curvature, mean_curvature, conormal, affine_normal, affine_gaussian_curvature,
         affine_mean_curvature, pick_invariant, affine_normal_angle, affine_area_density, status. "all" adds affine_k1,
-        affine_k2, direction1, direction2, metric. Or some of these names, also quadric_defect, shape_index, curvedness,
-        vertex_area, affine_area, affine_frame1, affine_frame2, affine_frame3, affine_frame_scale, affine_frame_quality,
-        affine_signature, signature; or "none".
+        affine_k2, direction1, direction2, metric. "none": no attributes. Or a list of these names, and of
+        quadric_defect, shape_index, curvedness, vertex_area, affine_area, affine_frame1, affine_frame2, affine_frame3,
+        affine_frame_scale, affine_frame_quality, affine_signature, signature.
     smoothing : float or "auto"
-        The scale in voxels by which samples are smoothed, up to 100; 0, the default, is none. Integers and other
-        samples with noise need it: curvatures of unsmoothed noise are noise. "auto" chooses by the noise, and
-        `Surface.report` has the scale.
+        Scale of the smoothing of samples in voxels, up to 100; 0, the default, means none. Use it for integers and
+        noisy samples, whose curvatures are otherwise dominated by noise. "auto" estimates the scale from the noise;
+        `Surface.report` contains it.
     constants : dict
-        Numbers of names in a formula.
+        Values of the constants in a formula, by name.
     orientation : {"gradient", "against"}
-        Whether normals point to larger values of f or to smaller ones.
+        Whether normals point toward larger or smaller values of f.
     angle : float
-        Of a Delaunay mesh: the least angle of triangles in degrees, at most 30, the default.
+        Delaunay meshes: lower bound on the angles of triangles in degrees, at most 30, which is the default.
     radius : float
-        Of a Delaunay mesh: the greatest radius of surface Delaunay balls, a length; 1/50 of the box's diagonal by default.
+        Delaunay meshes: upper bound on the radii of surface Delaunay balls, a length; by default 1/50 of the box's
+        diagonal.
     distance : float
-        Of a Delaunay mesh: the greatest distance of a triangle's circumcenter from the center of that ball, a length;
-        radius / 10 by default.
+        Delaunay meshes: upper bound on the distance between a triangle's circumcenter and the center of its surface
+        Delaunay ball, a length; by default radius / 10.
     threads : int
-        The greatest number of threads, all by default. The result does not depend on it.
+        Maximum number of threads, all by default. The result does not depend on it.
     progress : callable
-        Is called some twenty times a second with the number of a stage, the steps that are done, and all of them, which
-        are 0 where their number is not known. An exception that it raises ends the work.
+        Called as `progress(stage, done, total)` about twenty times a second, with the number of the stage and its
+        finished and total steps; `total` is 0 if unknown. An exception that it raises ends the computation.
 
     Returns
     -------
@@ -93,35 +98,36 @@ def mesh(f, *, level=0, box=None, resolution=None, method="marching-cubes", spac
 
 def curvatures(V, F=None, *, scale=None, noise=None, normals=None, degree=None, feature_angle=None, attributes="all",
                orientation="gradient", threads=None, progress=None):
-    """Return the curvatures of a mesh at its vertices, or of points, by polynomials that are fitted around each.
+    """Return the curvatures at the vertices of a mesh, or at points, from polynomials fitted around each of them.
 
     Parameters
     ----------
     V : array_like
-        Vertices, (n, 3). Or a Surface, with its faces.
+        Vertices, (n, 3), or a Surface, whose faces are used.
     F : array_like
-        Triangles, (m, 3) of integers. Without them V are points.
+        Triangles, (m, 3) integers. Without them, V is a set of points.
     scale : float, "auto" or "none", optional
-        A length that tells shape from detail. By default curvatures are the surface's own where the data resolve them,
-        else those at the smallest scale at which half of the vertices are known to 20 %; 0 insists on the surface's own.
+        Length below which features count as detail. By default curvatures are the surface's own if the data resolve
+        them, otherwise those at the smallest scale at which half of the vertices are known to 20 %. "none" or 0 always
+        returns the surface's own.
     noise : float or "auto"
-        The standard deviation of the points from the surface, a length; by default it is estimated.
+        Standard deviation of the points from the surface, a length; estimated by default.
     normals : array_like
         Normals of points without triangles, (n, 3).
     degree : int or "auto"
-        Of the polynomials: 4, 5, 6, 8 or 10; by default the data choose.
+        Degree of the polynomials: 4, 5, 6, 8 or 10; chosen from the data by default.
     feature_angle : float
-        Edges that bend by more than this angle in degrees, 60 by default, are creases if they follow each other; 180 for
-        none.
+        Chains of edges whose dihedral angle deviates from flat by more than this angle are creases; in degrees, 60 by
+        default, 180 for no creases.
     orientation : {"gradient", "against"}
-        Whether normals are those of the data or the opposite ones. Triangles stay as they are.
+        Whether to keep or to flip the normals of the data. Triangles stay as they are.
     attributes, threads, progress
-        As of `mesh`. Each number NAME comes with an estimate of its error, NAME_error.
+        See `mesh`. Each quantity NAME has an estimate of its error, NAME_error.
 
     Returns
     -------
     Surface
-        With the same vertices in the same order, and `scale`.
+        The same vertices in the same order, with `scale`.
 
     Examples
     --------
@@ -144,9 +150,9 @@ def curvatures(V, F=None, *, scale=None, noise=None, normals=None, degree=None, 
 
 
 def fit(V, F=None, *, scale=None, noise=None, normals=None, degree=None, feature_angle=None, threads=None, progress=None):
-    """Return a function that is zero on the surface through the vertices of a mesh, or through points.
+    """Return a function that vanishes on the surface through the vertices of a mesh or through points.
 
-    Parameters are those of `curvatures`.
+    The parameters are those of `curvatures`.
 
     Returns
     -------
@@ -169,19 +175,21 @@ def fit(V, F=None, *, scale=None, noise=None, normals=None, degree=None, feature
 
 def evaluate(f, points, *, constants=None, box=None, resolution=None, spacing=None, origin=None, direction=None,
              attributes="basic", smoothing=None, orientation="gradient", threads=None, progress=None):
-    """Return the value of f at points, and the numbers of the level set through each of them.
+    """Return the values of f at points, and the attributes of the level set through each point.
+
+    The other parameters are those of `mesh`; `box` and `resolution` apply only to a function.
 
     Parameters
     ----------
     f
-        As of `mesh`; other parameters, too. Box and resolution are for a function alone.
+        See `mesh`.
     points : array_like
         (n, 3).
 
     Returns
     -------
     Values
-        With the name "value" among them.
+        The attributes, and "value".
 
     Examples
     --------
@@ -191,7 +199,7 @@ def evaluate(f, points, *, constants=None, box=None, resolution=None, spacing=No
     [1.0, 8.0]
     """
     if isinstance(f, (str, Fit)) and (box is not None or resolution is not None):
-        raise TypeError("box and resolution are for a function that is sampled")
+        raise TypeError("box, resolution: apply only to a function; leave them out for a formula or a Fit")
     options, source = source_of(f, constants=constants, box=box, resolution=resolution, spacing=spacing, origin=origin,
                                 direction=direction, smoothing=smoothing)
     options.update(given(threads=threads), attributes=attributes, orientation=orientation)
@@ -201,32 +209,32 @@ def evaluate(f, points, *, constants=None, box=None, resolution=None, spacing=No
 
 def register(a, b, *, kind="affine", reflections=True, tolerance=None, min_overlap=None, number_of_maps=None,
              scale=None, threads=None, progress=None):
-    """Find the map that moves a surface, or a part of it, onto another one.
+    """Find the map that moves a surface, or a part of it, onto another surface.
 
     Parameters
     ----------
     a, b : Surface, tuple, array_like or path
-        The source and the target: a Surface, (V, F), (V, F, normals), points, or the path of a mesh or of points.
+        Source and target: a Surface, (V, F), (V, F, normals), points, or the path of a file of a mesh or points.
     kind : {"affine", "equiaffine", "similarity", "rigid"}
-        The maps among which one is sought.
+        The group of maps to search.
     reflections : bool
-        Whether it may change left and right.
+        Whether the map may be orientation-reversing.
     tolerance : float
-        The largest rms distance of moved points from the target, a part of its size below 0.1; by default what noise
-        and facets explain.
+        Maximum rms distance of moved points from the target as a fraction of its size, below 0.1; by default what
+        noise and facets explain.
     min_overlap : float
-        The part of one of the surfaces, at least, that must lie on the other; 0.05 by default.
+        Minimum fraction of one of the surfaces that must lie on the other; 0.05 by default.
     number_of_maps : int
-        The greatest number of maps with evidence, as `report["maps"]` has them. By default the best one alone is sought.
+        Maximum number of maps with evidence in `report["maps"]`. By default only the best one is sought.
     scale : float, "auto" or "none", optional
-        The length that tells shape from detail on both sides, as of `curvatures`.
+        Length below which features count as detail on both surfaces, see `curvatures`.
     threads, progress
-        As of `mesh`.
+        See `mesh`.
 
     Returns
     -------
     Registration
-        Without a map if there is no evidence for any.
+        Has no map if there is no evidence for one.
 
     Examples
     --------
@@ -250,10 +258,10 @@ def symmetries(a, *, kind="affine", reflections=True, tolerance=None, scale=None
     Parameters
     ----------
     a : Surface, tuple, array_like or path
-        As of `register`.
+        See `register`.
     kind, reflections, tolerance, scale, threads, progress
-        As of `register`. The tolerance is a part of the size of the surface: by default 1e-3 for points, and 0.01 for a
-        mesh, of which the first group of symmetries counts.
+        See `register`. The tolerance is a fraction of the size of the surface, by default 1e-3 for points; a mesh has
+        by default the first group of symmetries found within 0.01.
 
     Returns
     -------
@@ -274,8 +282,8 @@ def symmetries(a, *, kind="affine", reflections=True, tolerance=None, scale=None
 
 
 def read(path):
-    """Read a file: a Surface from .ply, .off, .obj, .stl, .csv or .xyz, and a Volume from .nrrd, .mhd, .mha, .nii,
-    .nii.gz, .inr, .inr.gz, .vti or .dcm."""
+    """Read a Surface from .ply, .off, .obj, .stl, .csv or .xyz, or a Volume from .nrrd, .mhd, .mha, .nii, .nii.gz,
+    .inr, .inr.gz, .vti or .dcm."""
     path, text = path_of(path)
     if not text.lower().endswith(_VOLUMES):
         return _surface(_core.read_surface(path))
@@ -285,10 +293,10 @@ def read(path):
 
 
 def write(path, data):
-    """Write a Surface, (V, F) or a Volume to a file in the format of its extension, whole or not at all.
+    """Write a Surface, (V, F) or a Volume in the format of the file's extension. An error leaves no partial file.
 
-    A Surface goes into .ply, .off, .obj, .stl, .csv or .vtp, of which .ply, .csv and .vtp keep its attributes; a Volume
-    into .nrrd, .mhd, .mha, .nii, .nii.gz or .vti.
+    A Surface is written as .ply, .off, .obj, .stl, .csv or .vtp; .ply, .csv and .vtp keep its attributes. A Volume is
+    written as .nrrd, .mhd, .mha, .nii, .nii.gz or .vti.
     """
     path, _ = path_of(path)
     if isinstance(data, Volume):
@@ -297,24 +305,25 @@ def write(path, data):
 
 
 def view(surface, path=None, *, color=None, up=None, range=None, colors=None, size=None):
-    """Show a surface: as a page in the browser, or in a file.
+    """Show a surface in the browser, or write a page or a picture of it.
 
     Parameters
     ----------
     surface : Surface or tuple
-        What is shown: a Surface or (V, F), with triangles.
+        A Surface or (V, F), with triangles.
     path : path, optional
-        Of a page, .html, or a picture, .png. Without it a page is opened, whose file stays among the temporary ones.
+        File of a page, .html, or of a picture, .png. By default a temporary page is opened in the browser; its file is
+        not removed.
     color : str
-        The attribute that is shown, a component of a vector such as "nx", "status", or "plain" for none.
+        The attribute to show, a component of a vector such as "nx", "status", or "plain" for none.
     up : {"x", "y", "z", "auto"}
-        The axis that is up; by default the shape decides.
+        The axis that points up; chosen from the shape by default.
     range : pair of floats
-        The numbers that have the end colors, by default quantiles.
+        The values at the ends of the color bar; quantiles by default.
     colors : {"linear", "logarithmic", "equalized", "auto"}
-        How numbers become colors; by default the numbers decide.
+        The map from values to colors; chosen from the values by default.
     size : pair of ints
-        Width and height of a picture in pixels, 1000 and 800 by default.
+        Width and height of a picture in pixels; 1000 and 800 by default.
     """
     options = given(color=color, up=up, range=range, colors=colors, size=size)
     mesh_to_show = whole_mesh_of(surface)
@@ -337,7 +346,7 @@ def _show(options, mesh_to_show, path):
 
 
 def page_of(surface):
-    """Return the page of a surface as a text."""
+    """Return the page of a surface as a string."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "page.html"
         view(surface, path)

@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What functions return."""
+"""Results of the functions."""
 import contextlib
 import enum
 import re
 
 import numpy
 
-_MOST_VERTICES_OF_NOTEBOOK = 200000  # a page of more would be too large for a cell
+_MOST_VERTICES_OF_NOTEBOOK = 200000  # larger pages slow a notebook down
 
 
 class Status(enum.IntEnum):
-    """What is known at a vertex: numbers are NaN where they do not exist."""
+    """Which quantities are defined at a vertex. The others are NaN."""
     REGULAR = 0
     PARABOLIC = 1    # affine quantities do not exist
     SINGULAR = 2     # the gradient is zero
-    OUTSIDE = 3      # nothing is known of the surface
-    UNCONVERGED = 4  # the vertex could not be put onto the surface
+    OUTSIDE = 3      # outside the domain: nothing is known of the surface
+    UNCONVERGED = 4  # the vertex could not be projected onto the surface
 
 
 def _irregular(status):
-    """How many points have another status than REGULAR, in words."""
+    """Counts of the points that are not REGULAR, as text."""
     if status is None:
         return ""
     counts = numpy.bincount(status, minlength=len(Status))
@@ -27,13 +27,13 @@ def _irregular(status):
 
 
 class Values:
-    """Numbers at points by name, such as `values["mean_curvature"]`; vectors, as `values["normal"]`, are copies, (n, 3).
+    """Quantities at points by name, such as `values["mean_curvature"]`. Vectors such as `values["normal"]` are copies
+    of shape (n, 3).
 
     Attributes
     ----------
     attributes : dict
-        Arrays of shape (n,) by name. `NAME_error` is an estimate of the error of NAME, where there is one: inf where
-        nothing is known of it.
+        Arrays of shape (n,) by name. `NAME_error`, if present, estimates the error of NAME; it is inf if unknown.
     status : numpy.ndarray or None
         Of uint8, see `Status`.
     """
@@ -62,7 +62,7 @@ class Values:
         columns = ["nx", "ny", "nz"] if name == "normal" else [f"{name}_{axis}" for axis in "xyz"]
         if all(column in self.attributes for column in columns):
             return numpy.stack([self.attributes[column] for column in columns], axis=1)
-        raise KeyError(f"{name}: there are {', '.join(self.attributes)}")
+        raise KeyError(f"no attribute {name}; use one of {', '.join(self.attributes)}")
 
     def __contains__(self, name):
         try:
@@ -79,25 +79,25 @@ class Values:
 
 
 class Surface(Values):
-    """A mesh, or points, with numbers at its vertices.
+    """A mesh or points, with attributes of the vertices.
 
     Attributes
     ----------
     V : numpy.ndarray
         Vertices, (n, 3) of float64.
     F : numpy.ndarray
-        Triangles, (m, 3) of int64. Those that `mesh` makes are counterclockwise seen from the side to which normals point.
+        Triangles, (m, 3) of int64. Those of `mesh` are counterclockwise seen from the side to which the normals point.
     attributes : dict
         Arrays of shape (n,) by name.
     status : numpy.ndarray or None
         Of uint8, see `Status`.
     scale : float or None
-        The scale of curvatures of a fit; None if they are the surface's own, or not of a fit.
+        The scale of the curvatures of a fit; None if they are the surface's own, or if there is no fit.
     comments : list of str
-        What is known of a fit, as lines of a PLY file.
+        Information about a fit, as comments of a PLY file.
     report : dict
-        What `mesh` found out: "max_distance", the greatest distance of a vertex from the surface as Newton's method sees it;
-        of samples "noise", their standard deviation, and "smoothing", the scale in voxels.
+        Diagnostics of `mesh`: "max_distance", the maximum distance of a vertex from the surface, estimated by a Newton
+        step; for samples also "noise", their standard deviation, and "smoothing", the scale in voxels.
     """
 
     def __init__(self, V, F=None, attributes=None, status=None, scale=None, comments=(), report=None):
@@ -117,15 +117,15 @@ class Surface(Values):
         return f"{len(self.V)} vertices, {len(self.F)} triangles{_irregular(self.status)}"
 
     def save(self, path):
-        """Write a .ply, .off, .obj, .stl, .csv or .vtp file with all that the format can hold, whole or not at all.
+        """Write a .ply, .off, .obj, .stl, .csv or .vtp file with all that the format can hold; see `write`.
 
-        Of these, .stl and .vtp are not read back, and .csv without the status.
+        `read` does not read .stl and .vtp files, nor the status in a .csv file.
         """
         from ._functions import write
         write(path, self)
 
     def to_pyvista(self):
-        """Return a `pyvista.PolyData` with all attributes as arrays of points."""
+        """Return a `pyvista.PolyData` with all attributes as point data."""
         import pyvista
         faces = numpy.column_stack([numpy.full(len(self.F), 3), self.F]).ravel()
         result = pyvista.PolyData(self.V, faces) if len(self.F) else pyvista.PolyData(self.V)
@@ -136,7 +136,7 @@ class Surface(Values):
         return result
 
     def to_trimesh(self):
-        """Return a `trimesh.Trimesh` with all attributes as attributes of vertices."""
+        """Return a `trimesh.Trimesh` with all attributes as vertex attributes."""
         import trimesh
         return trimesh.Trimesh(self.V, self.F, process=False, vertex_attributes=dict(self.attributes))
 
@@ -151,23 +151,23 @@ class Surface(Values):
 
 
 class Volume:
-    """Samples on a grid: that with the index i, j, k is at `origin + direction @ (spacing * (i, j, k))`.
+    """Samples on a grid: sample (i, j, k) is at `origin + direction @ (spacing * (i, j, k))`.
 
     Attributes
     ----------
     values : numpy.ndarray
-        Of three dimensions; NaN means no sample.
+        Three-dimensional; NaN marks missing samples.
     spacing, origin : numpy.ndarray
         Of shape (3,).
     direction : numpy.ndarray
-        Unit vectors along the axes of the array in the columns of a (3, 3) matrix.
+        A (3, 3) matrix whose columns are unit vectors along the axes of the array.
     """
 
     def __init__(self, values, spacing=(1, 1, 1), origin=(0, 0, 0), direction=None):
         from ._arguments import direction_of, numbers_in, spacing_of
         self.values = numpy.asarray(values)
         if self.values.ndim != 3:
-            raise ValueError(f"values: give an array of three dimensions, and not of the shape {self.values.shape}")
+            raise ValueError(f"values: give a three-dimensional array, not one of shape {self.values.shape}")
         self.spacing = spacing_of(spacing)
         self.origin = numbers_in("origin", origin, 3)
         self.direction = direction_of(direction)
@@ -176,20 +176,20 @@ class Volume:
         return f"<Volume: {' x '.join(map(str, self.values.shape))} of {self.values.dtype}>"
 
     def save(self, path):
-        """Write a .nrrd, .mhd, .mha, .nii, .nii.gz or .vti file: float32 as it is, other types as float64."""
+        """Write a .nrrd, .mhd, .mha, .nii, .nii.gz or .vti file. Values of types other than float32 become float64."""
         from ._functions import write
         write(path, self)
 
 
 class Fit:
-    """A function that is fitted to the vertices of a mesh or to points: zero on the surface, positive outside.
+    """A function fitted to the vertices of a mesh or to points by `fit`: zero on the surface, positive outside.
 
-    It is known near the data; elsewhere it is NaN. `fit` makes it. It can be pickled: what is loaded is fitted again.
+    It is NaN far from the data. It can be pickled; loading it repeats the fit.
 
     Attributes
     ----------
     scale : float or None
-        The scale of its curvatures, None if they are the surface's own.
+        The scale of its curvatures; None if they are the surface's own.
     """
 
     def __init__(self, core, arguments):
@@ -207,12 +207,12 @@ class Fit:
         return self.evaluate(points, attributes="status")["value"]
 
     def evaluate(self, points, **options):
-        """Return the numbers at points: see `evaluate`."""
+        """Return the values and attributes at points; see `evaluate`."""
         from ._functions import evaluate
         return evaluate(self, points, **options)
 
     def mesh(self, **options):
-        """Return the surface of the fit: see `mesh`. With the resolution 129, the default, it takes some ten seconds."""
+        """Return the surface of the fit; see `mesh`. This takes about ten seconds at the default resolution of 129."""
         from ._functions import mesh
         return mesh(self, **options)
 
@@ -233,7 +233,7 @@ def _matrix_of(mapping):
 
 
 class _Findings:
-    """What the program reports, and what it says of it."""
+    """A report of the program and its summary."""
 
     def __init__(self, report, summary):
         self.report = report
@@ -244,24 +244,24 @@ class _Findings:
 
 
 class Registration(_Findings):
-    """The map from a surface to another one, or why there is none. It is true if there is one.
+    """The map from one surface to another, or the reason why there is none. It is true if a map was found.
 
     Attributes
     ----------
     found : bool
-        Whether there is a map.
+        Whether a map was found.
     matrix : numpy.ndarray or None
-        (4, 4), which moves a point (x, y, z, 1) of the source onto the target.
+        (4, 4); maps a point (x, y, z, 1) of the source onto the target.
     rms : float or None
-        The root of the mean squared distance of the points that agree.
+        Root mean square distance of the points that agree.
     inliers : tuple or None
-        The parts of source and target that lie on the other surface.
+        The fractions of source and target that lie on the other surface.
     log10_false_alarms : float or None
-        The logarithm of the number of maps as good as this one that chance would make.
+        Base-10 logarithm of the expected number of maps as good as this one by chance.
     summary : str
-        What the program says, and why there is no map.
+        The result in words, or the reason why there is no map.
     report : dict
-        All that the program writes.
+        The complete report of the program.
     """
 
     def __init__(self, report, summary):
@@ -273,9 +273,9 @@ class Registration(_Findings):
         self.log10_false_alarms = report.get("log10_false_alarms")
 
     def apply(self, points):
-        """Return points of the source (n, 3) moved onto the target."""
+        """Return points of the source, (n, 3), moved onto the target."""
         if not self.found:
-            raise ValueError("there is no map: " + self.summary)
+            raise ValueError("no map was found, so points cannot be moved: " + self.summary)
         from ._arguments import points_of
         return points_of(points, "points") @ self.matrix[:3, :3].T + self.matrix[:3, 3]
 
@@ -289,17 +289,18 @@ class Symmetries(_Findings):
     Attributes
     ----------
     decided : bool
-        Whether it is known how many there are.
+        Whether the number of maps could be decided.
     order : int or None
-        Their number, None if there are infinitely many or if it is not decided.
+        Number of maps; None if infinite or undecided.
     matrices : numpy.ndarray or None
-        (k, 4, 4), the identity first; None if it is not decided.
+        (k, 4, 4), the identity first; None if undecided.
     dimension : int
-        In how many ways the surface slides over itself. If it is not 0 and the order is None, `matrices` has the identity alone.
+        Dimension of the continuous symmetries. If it is not 0 and the order is None, `matrices` contains only the
+        identity.
     summary : str
-        What the program says, and why it is not decided.
+        The result in words, or the reason why it is undecided.
     report : dict
-        All that the program writes.
+        The complete report of the program.
     """
 
     def __init__(self, report, summary):

@@ -21,7 +21,7 @@ Attribute_arrays::Attribute_arrays(const Attribute_selection& selection, const E
     std::size_t end = first + 1;
     while (end < columns.size() && columns[end].row == columns[first].row) ++end;
     const auto& row = attribute_table<double>[columns[first].row];
-    const bool is_whole = end - first == row.size() && // else a component was asked for by its own name
+    const bool is_whole = end - first == row.size() && // otherwise single components were selected by name
                           std::is_sorted(&columns[first], &columns[first] + row.size(),
                                          [](const auto& a, const auto& b) { return a.component < b.component; });
     if (!is_whole) end = first + 1;

@@ -16,17 +16,17 @@ class vtkDataSetAttributes;
 
 namespace equiaffine {
 
-/// Attributes of points, added a block of points at a time, as arrays for VTK: a vector or a form is one array, whose
-/// components have names. Errors have arrays after all others.
+/// Collects attributes of points block by block as arrays for VTK. A vector or a form becomes one array with named
+/// components. Arrays of errors come last.
 class Attribute_arrays {
 public:
   explicit Attribute_arrays(const Attribute_selection& selection, const Error_rows& errors = {});
 
-  /// Adds those points of a block whose places in it are given. Its columns are those of the selection, and then the
-  /// errors.
+  /// Adds the points of a block that have these indices. The columns of the block are those of the selection, followed
+  /// by the errors.
   void add(const Vertex_attributes& block, std::span<const std::size_t> places);
 
-  /// A scalar, by its name and its numbers.
+  /// Name and values of a scalar.
   struct Scalar {
     std::string name;
     std::span<const double> values;
@@ -36,14 +36,14 @@ public:
   bool has_status() const { return selection_.has_status; }                   ///< whether it was selected
   std::span<const unsigned char> status() const { return status_.numbers(); } ///< empty if it was not selected
 
-  /// Gives the arrays to VTK. Normals become the active ones.
+  /// Transfers the arrays to VTK. Normals become the active normals.
   void move_to(vtkDataSetAttributes& data);
 
 private:
   struct Array {
     std::string name;
     bool is_scalar;
-    std::vector<std::size_t> columns; // of the selection, for the components
+    std::vector<std::size_t> columns; // of the selection, one per component
     Growing_array<double> numbers;
   };
 

@@ -22,7 +22,7 @@ Error_rows selected_errors(const Attribute_selection& selection, bool of_splines
 
 void Doubt::add(Vertex_attributes& block, std::span<const unsigned char> ghosts) {
   if (doubtful_ == Doubtful::UNTESTED) return;
-  std::vector<std::vector<double>> sizes; // of all columns before any of their numbers is hidden
+  std::vector<std::vector<double>> sizes; // computed before any number is hidden
   for (const auto& row : rows_) sizes.push_back(sizes_of_numbers(*find_column(block, row.row->name), block));
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     const auto column = std::find_if(block.columns.begin(), block.columns.end(),
@@ -43,13 +43,13 @@ void Doubt::add(Vertex_attributes& block, std::span<const unsigned char> ghosts)
 Doubt::Verdict Doubt::verdict(const Ranks& ranks, const std::vector<std::string>& names, bool has_status) const {
   std::vector<std::int64_t> counts = counts_;
   ranks.sum(counts);
-  // The rules take the numbers of all vertices. The same parts of so many stand for them.
+  // The rules need the numbers of all vertices. A sample with the same fractions of unknown numbers represents them.
   constexpr std::size_t vertices = 10000;
   Vertex_attributes sample;
   const auto add = [&](std::string name, double number) {
     if (!find_column(sample, name)) sample.columns.push_back({std::move(name), std::vector<double>(vertices, number)});
   };
-  for (std::size_t r = 0; r < rows_.size(); ++r) { // those of which all numbers are hidden, too
+  for (std::size_t r = 0; r < rows_.size(); ++r) { // including rows whose numbers are all hidden
     double unknown = counts[2 * r] == 0 ? 0 : double(counts[2 * r + 1]) / double(counts[2 * r]);
     if (doubtful_ == Doubtful::UNTESTED) unknown = 1;
     const bool exists = counts[2 * r] > 0 || std::find(names.begin(), names.end(), rows_[r].row->name) != names.end();

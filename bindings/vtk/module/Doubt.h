@@ -16,37 +16,37 @@
 
 namespace equiaffine {
 
-/// What becomes of numbers whose error is to be known.
+/// Treatment of unknown numbers, that is those with large errors: errors are not computed, unknown numbers are counted,
+/// or also replaced by NaN.
 enum class Doubtful { UNTESTED, COUNTED, HIDDEN };
 
 using Error_rows = std::vector<Estimate_attribute>;
 
-/// The errors that are estimated of selected attributes; `of_splines` leaves out those that only fits have.
+/// The available errors of the selected attributes; `of_splines` excludes those that only fits have.
 Error_rows selected_errors(const Attribute_selection& selection, bool of_splines);
 
-/// Counts at how many vertices numbers are known, by the rules of pages and pictures.
+/// Counts the vertices at which numbers are known, by the rules of pages and pictures.
 class Doubt {
 public:
-  /// Numbers of these rows have columns of errors, unless they are UNTESTED: then nothing is known of them.
+  /// Numbers of these rows have columns of errors, except if UNTESTED.
   Doubt(Error_rows rows, Doubtful doubtful) : rows_(std::move(rows)), doubtful_(doubtful), counts_(2 * rows_.size()) {}
 
-  /// Counts the numbers of a block of vertices without those marked as ghosts, and makes unknown ones NaN if they are
-  /// to be HIDDEN.
+  /// Counts the numbers of a block of vertices, excluding ghosts, and makes unknown ones NaN if HIDDEN.
   void add(Vertex_attributes& block, std::span<const unsigned char> ghosts);
 
-  /// What the pages of the program would say of a surface.
+  /// The same assessment of a surface as on pages of the program.
   struct Verdict {
-    std::string first_shown;            ///< the quantity that is known first
-    std::vector<std::string> sentences; ///< on what is unknown at most vertices
+    std::string first_shown;            ///< the quantity to show by default: the first one that is known
+    std::vector<std::string> sentences; ///< warnings about quantities that are unknown at most vertices
   };
 
-  /// The verdict on the vertices of all processes, of which it has scalars with those names, and a status.
+  /// The verdict on the vertices of all processes, which have scalars with these names and optionally a status.
   Verdict verdict(const Ranks& ranks, const std::vector<std::string>& names, bool has_status) const;
 
 private:
   Error_rows rows_;
   Doubtful doubtful_;
-  std::vector<std::int64_t> counts_; // of each row: vertices with a number, and those where it is unknown
+  std::vector<std::int64_t> counts_; // for each row: vertices with a number, and those where it is unknown
 };
 
 } // namespace equiaffine

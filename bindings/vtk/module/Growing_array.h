@@ -13,8 +13,8 @@
 
 namespace equiaffine {
 
-/// Numbers that are added a block at a time, and given to an array of VTK in the end. There is one copy of them at
-/// every time, while arrays of VTK take more than twice the memory when they grow.
+/// Numbers that are added block by block, and finally transferred to an array of VTK. They exist only once in memory at
+/// any time, whereas arrays of VTK need more than twice the memory when they grow.
 template <class Number>
 class Growing_array {
 public:
@@ -24,7 +24,7 @@ public:
   Growing_array& operator=(Growing_array&&) = delete;
   ~Growing_array() { free_memory(numbers_); }
 
-  /// Adds so many numbers, which are to be written.
+  /// Appends `count` uninitialized numbers, and returns them for writing.
   std::span<Number> grow(std::size_t count) {
     numbers_ = static_cast<Number*>(resized_memory(numbers_, (size_ + count) * sizeof(Number)));
     size_ += count;
@@ -33,7 +33,7 @@ public:
 
   std::span<const Number> numbers() const { return {numbers_, size_}; }
 
-  /// Gives the numbers to an array.
+  /// Transfers the numbers to an array.
   template <class Array>
   void move_to(Array& array) {
     if (size_ == 0) return;

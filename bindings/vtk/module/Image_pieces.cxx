@@ -46,7 +46,7 @@ Extent extent_of(vtkImageData* image) {
   return extent;
 }
 
-/// The extent of the cells of an image that are not marked as those of another piece.
+/// The extent of the cells of an image that are not marked as belonging to another piece.
 Extent own_extent(vtkImageData* image) {
   const Extent extent = extent_of(image);
   vtkUnsignedCharArray* const ghosts = image->GetCellGhostArray();
@@ -63,7 +63,7 @@ Extent own_extent(vtkImageData* image) {
   return own;
 }
 
-/// What the images of all processes have in common, as numbers that can be compared.
+/// The properties that must agree in the images of all processes, as numbers.
 std::vector<double> frame_of(vtkImageData* image) {
   std::vector<double> frame(image->GetOrigin(), image->GetOrigin() + 3);
   frame.insert(frame.end(), image->GetSpacing(), image->GetSpacing() + 3);
@@ -73,7 +73,7 @@ std::vector<double> frame_of(vtkImageData* image) {
   return frame;
 }
 
-/// The least and the greatest of numbers over all processes, each of which may have none.
+/// Minima and maxima of numbers over all processes, some of which can have none.
 struct Range {
   std::vector<double> least, greatest;
   explicit Range(std::size_t size)
@@ -91,7 +91,7 @@ struct Range {
   }
 };
 
-/// The extent that a source has for a piece; it is empty if there are more pieces than cells.
+/// The extent of a piece as a source would choose it; empty if there are more pieces than cells.
 Extent extent_of_piece(Extent whole, const Piece_request& request) {
   Extent extent;
   const vtkNew<vtkExtentTranslator> translator;
@@ -116,15 +116,15 @@ std::int64_t number_of(const Cell_block& cells) {
   return count;
 }
 
-/// The lattice of an image with that frame.
+/// The lattice of an image with this frame.
 Lattice_3<Kernel> lattice_of(const std::vector<double>& frame, const Extent& whole, const Volume_options& options) {
   std::array<std::size_t, 3> size;
   for (std::size_t a = 0; a < 3; ++a) {
     size[a] = std::size_t(whole[2 * a + 1] - whole[2 * a]) + 1;
     require(size[a] > std::size_t(options.spline_degree),
-            "the image has " + std::to_string(size[a]) + (size[a] == 1 ? " point" : " points") +
-                " along an axis, and a spline needs more than its degree of " + std::to_string(options.spline_degree) +
-                "; choose a smaller degree, or give a volume with more points");
+            "too few points of the image along axis " + std::string(1, "ijk"[a]) + ": " + std::to_string(size[a]) +
+                ", but a spline of degree " + std::to_string(options.spline_degree) + " needs at least " +
+                std::to_string(options.spline_degree + 1) + "; choose a smaller degree or a larger image");
   }
   std::array<double, 3> origin = {frame[0], frame[1], frame[2]};
   std::array<Kernel::Vector_3, 3> steps;
@@ -143,7 +143,7 @@ bool contains(const Cell_block& cells, const Cell_block& others) {
   return true;
 }
 
-/// Whether a piece of this process needs samples that its image does not have.
+/// Whether a piece of this process needs samples that its image does not contain.
 bool lacks_samples(const Image_pieces& pieces, const Piece_request& request) {
   const auto& lattice = *pieces.lattice;
   return std::any_of(pieces.pieces.begin(), pieces.pieces.end(), [&](const Image_piece& piece) {
@@ -153,7 +153,8 @@ bool lacks_samples(const Image_pieces& pieces, const Piece_request& request) {
   });
 }
 
-/// The least number of cells of an image along an axis that is cut: no image gives more levels to its neighbors.
+/// The minimum number of cells of an image along an axis that is divided: the maximum number of ghost levels that
+/// images can provide to their neighbors.
 double least_thickness(const Image_pieces& pieces) {
   double least = std::numeric_limits<double>::infinity();
   for (const Image_piece& piece : pieces.pieces) {
@@ -165,19 +166,19 @@ double least_thickness(const Image_pieces& pieces) {
   return least;
 }
 
-/// The same image with the array of samples and the marks of cells of other pieces only.
+/// The image with only the array of samples and the marks of cells of other pieces.
 vtkSmartPointer<vtkImageData> with_samples_only(vtkImageData* image, int component, const Find_array& find) {
   vtkDataArray* const array = find(image);
-  require(array, "the image has no such point array of numbers; choose one of its point arrays");
+  require(array, "the selected point array does not exist or is not numeric; choose another point array of the image");
   const std::string name = array->GetName() ? " '" + std::string(array->GetName()) + "'" : "";
   require(array->GetNumberOfTuples() == image->GetNumberOfPoints(),
-          "the array" + name +
-              " has no number for each point of the image; choose a point array, or convert cell data "
-              "to point data");
+          "the array" + name + " does not have one tuple per point of the image: " +
+              std::to_string(array->GetNumberOfTuples()) + ", not " + std::to_string(image->GetNumberOfPoints()) +
+              "; choose a point array, or convert cell data to point data");
   const int components = array->GetNumberOfComponents();
   require(component < components, "the array" + name + " has " + std::to_string(components) +
-                                      (components == 1 ? " component" : " components") + ", of which number " +
-                                      std::to_string(component) + " is none; they count from 0");
+                                      (components == 1 ? " component" : " components") + ", so there is no component " +
+                                      std::to_string(component) + "; count components from 0");
   const auto samples = vtkSmartPointer<vtkDataArray>::Take(array->NewInstance());
   samples->ShallowCopy(array);
   samples->SetName("samples");
@@ -186,7 +187,7 @@ vtkSmartPointer<vtkImageData> with_samples_only(vtkImageData* image, int compone
   result->GetPointData()->SetScalars(samples);
   if (vtkUnsignedCharArray* const ghosts = image->GetCellGhostArray()) {
     require(ghosts->GetNumberOfTuples() == image->GetNumberOfCells(),
-            "the array vtkGhostType has no mark for each cell of the image; remove it or repair it");
+            "the array vtkGhostType does not have one value per cell of the image; remove or correct it");
     result->GetCellData()->AddArray(ghosts);
   }
   return result;
@@ -198,7 +199,7 @@ std::vector<vtkSmartPointer<vtkImageData>> images_of(vtkDataObject* input, int c
   std::vector<vtkSmartPointer<vtkImageData>> images;
   const auto add = [&](vtkDataObject* object) {
     auto* const image = vtkImageData::SafeDownCast(object);
-    require(image || !object, "a part of the input is no image; resample it to one");
+    require(image || !object, "a block of the input is not an image; resample it to an image");
     if (image && image->GetNumberOfPoints() > 0) images.push_back(with_samples_only(image, component, find));
   };
   if (auto* const parts = vtkCompositeDataSet::SafeDownCast(input)) {
@@ -213,48 +214,50 @@ std::vector<vtkSmartPointer<vtkImageData>> images_of(vtkDataObject* input, int c
 
 Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, const std::array<int, 6>& whole_extent,
                           const Piece_request& request, const Ranks& ranks, vtkMultiProcessController* controller) {
-  Range frames(17), extents(6), told(6);
-  std::int64_t other_parts = 0; // whether this process has another part than a source would give it
+  Range frames(17), extents(6), reported(6);
+  std::int64_t other_parts = 0; // not 0 if the part of this process differs from that of a source
   together(ranks, [&] {
     const Extent of_piece =
         is_empty(whole_extent) ? Extent{0, -1, 0, -1, 0, -1} : extent_of_piece(whole_extent, request);
     for (const auto& image : images) {
       const std::vector<double> frame = frame_of(image);
       for (const double x : frame)
-        require(std::isfinite(x), "the origin, the spacing or the direction of the image is not finite; correct it");
+        require(std::isfinite(x), "the origin, spacing or direction of the image is not finite; correct it");
       frames.add(frame);
       const Extent own = own_extent(image);
       extents.add({own.begin(), own.end()});
       other_parts += !is_empty(of_piece) && !contains_extent(extent_of(image), of_piece);
     }
     other_parts += images.empty() && !is_empty(of_piece);
-    told.add({whole_extent.begin(), whole_extent.end()});
+    reported.add({whole_extent.begin(), whole_extent.end()});
   });
-  for (Range* const range : {&frames, &extents, &told}) range->reduce(ranks);
+  for (Range* const range : {&frames, &extents, &reported}) range->reduce(ranks);
   ranks.sum(std::span(&other_parts, 1));
   Image_pieces result;
   if (extents.least[0] > extents.greatest[1]) return result;
 
-  // A source that gives any part of an image tells the same whole extent everywhere. Else it is that of all images.
-  const bool is_told = told.least == told.greatest && !is_empty(whole_extent);
-  const bool is_given_by_source = is_told && other_parts == 0;
+  // A source that can provide any part of an image reports the same whole extent in all processes. Otherwise the whole
+  // extent is the union of the images.
+  const bool is_reported = reported.least == reported.greatest && !is_empty(whole_extent);
+  const bool is_given_by_source = is_reported && other_parts == 0;
   Extent whole = whole_extent;
-  for (std::size_t a = 0; a < 3 && !is_told; ++a) {
+  for (std::size_t a = 0; a < 3 && !is_reported; ++a) {
     whole[2 * a] = int(extents.least[2 * a]);
     whole[2 * a + 1] = int(extents.greatest[2 * a + 1]);
   }
   std::int64_t missing = 0, lacks = 0;
   together(ranks, [&] {
-    require(frames.least == frames.greatest, "the pieces of the image differ in origin, spacing, direction or type of "
-                                             "numbers; give pieces of one image");
+    require(frames.least == frames.greatest, "the pieces of the image differ in origin, spacing, direction, data type "
+                                             "or number of components; use pieces of one image");
     result.lattice = lattice_of(frames.least, whole, request.volume);
     result.first = {whole[0], whole[2], whole[4]};
     const std::int64_t cells = number_of(equiaffine::cells_of(result.lattice->size()));
-    // One process that makes all pieces one after the other has the whole image.
+    // A process that makes all pieces one after the other has the whole image.
     result.are_whole = is_given_by_source && request.pieces != ranks.count();
     require(
         is_given_by_source || ranks.count() == 1 || request.pieces == ranks.count(),
-        "a process has one piece of images in memory, and not several; ask for as many pieces as there are processes");
+        "images in memory are one piece per process; request " + std::to_string(ranks.count()) + " pieces, not " +
+            std::to_string(request.pieces));
     for (const auto& image : images) {
       const Extent own = is_given_by_source ? extent_of_piece(whole, request) : own_extent(image);
       if (is_empty(own)) continue;
@@ -268,7 +271,7 @@ Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, con
   std::array<std::int64_t, 2> sums = {missing, lacks};
   ranks.sum(sums);
   together(ranks, [&] {
-    require(sums[0] == 0, "the pieces of the image overlap or leave cells out; give each cell to one piece");
+    require(sums[0] == 0, "the pieces of the image overlap or leave gaps; assign each cell to exactly one piece");
   });
   if (sums[1] > 0) {
     const int levels = needed_ghost_levels(request.volume) + request.ghost_levels;
@@ -280,9 +283,9 @@ Image_pieces image_pieces(std::vector<vtkSmartPointer<vtkImageData>> images, con
     for (std::size_t n = 0; n < exchanged.size(); ++n) result.pieces[n].image = exchanged[n];
     together(ranks, [&] {
       require(!lacks_samples(result, request),
-              "a piece of the image needs " + std::to_string(levels) +
-                  " ghost levels, and the pieces beside it have fewer; use fewer pieces, " +
-                  (!request.volume.smoothing ? "or set the smoothing" : "less smoothing or a smaller degree"));
+              "the pieces of the image are too thin: a piece needs " + std::to_string(levels) +
+                  " ghost levels from its neighbors; use fewer pieces" +
+                  (!request.volume.smoothing ? ", or set the smoothing" : ", less smoothing, or a smaller degree"));
     });
   }
   result.are_wanted = is_given_by_source || request.pieces == ranks.count() || request.piece == 0;
@@ -306,7 +309,7 @@ Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& pie
   const auto step = std::ptrdiff_t(samples->GetDataTypeSize()) * samples->GetNumberOfComponents(),
              row = step * (extent[1] - extent[0] + 1), slab = row * (extent[3] - extent[2] + 1);
   const Cell_block have = cells_of(pieces, piece.image);
-  vtkIdType first = component; // the place of the first number
+  vtkIdType first = component; // index of the first number
   for (std::size_t a = 0; a < 3; ++a)
     first += vtkIdType(cells.first[a] - have.first[a]) *
              vtkIdType(std::array{step, row, slab}[a] / samples->GetDataTypeSize());
@@ -315,7 +318,7 @@ Volume_view_3<Kernel> view_of(const Image_pieces& pieces, const Image_piece& pie
   };
   void* const memory = samples->GetVoidPointer(0);
   switch (samples->GetDataType()) { vtkTemplateMacro(return view(static_cast<const VTK_TT*>(memory))); }
-  throw std::invalid_argument("the array of the image is of a type without numbers; choose another one");
+  throw std::invalid_argument("the array of the image is not numeric; choose another one");
 }
 
 Cell_block needed_cells(const Cell_block& block, const Lattice_3<Kernel>& lattice, const Volume_options& options) {
@@ -327,10 +330,10 @@ Cell_block needed_cells(const Cell_block& block, const Lattice_3<Kernel>& lattic
 int needed_ghost_levels(const Volume_options& options) {
   if (options.spline_scheme == Spline_scheme::INTERPOLATION) return 0;
   const double smoothing = options.smoothing.value_or(greatest_scale_to_choose);
-  const std::size_t n = 64 + 16 * std::size_t(smoothing + 1); // room for both borders and what is between
+  const std::size_t n = 64 + 16 * std::size_t(smoothing + 1); // large enough for both borders and the interior
   const Lattice_3<Kernel> lattice({n, n, n}, CGAL::Bbox_3(0, 0, 0, 1, 1, 1));
   std::size_t levels = 0;
-  for (const std::size_t c : {std::size_t(0), n / 2}) { // the cell at the border looks farthest inwards
+  for (const std::size_t c : {std::size_t(0), n / 2}) { // a cell at the border needs samples farthest inward
     const Cell_block needed = needed_cells({{c, c, c}, {c + 1, c + 1, c + 1}}, lattice, options);
     levels = std::max({levels, c - needed.first[0], needed.end[0] - c - 1});
   }

@@ -16,7 +16,7 @@ namespace {
 
 using Tag = CGAL::Parallel_if_available_tag;
 
-/// Calls measure(volume) with what this process has of the volume.
+/// Calls measure(volume) with the parts of the volume of this process.
 template <class Measure>
 void in_all_processes(const Views& views, const Image_pieces& pieces, const Ranks& ranks, const Measure& measure) {
   together(ranks, [&] {
@@ -52,7 +52,7 @@ std::optional<std::size_t> counted_values(const Views& views, const Image_pieces
 }
 
 bool are_whole(const Views& views, const Ranks& ranks) {
-  std::array<std::int64_t, 2> counts = {std::int64_t(views.size()), 0}; // of views, and of those of parts
+  std::array<std::int64_t, 2> counts = {std::int64_t(views.size()), 0}; // all views, and views of parts
   counts[1] = std::count_if(views.begin(), views.end(), [](const auto& view) { return view.is_part(); });
   ranks.sum(counts);
   return counts[0] > 0 && counts[1] == 0;

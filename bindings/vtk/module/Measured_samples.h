@@ -14,19 +14,19 @@
 
 namespace equiaffine {
 
-using Views = std::vector<Volume_view_3<Kernel>>; ///< of the samples of each piece of a process
+using Views = std::vector<Volume_view_3<Kernel>>; ///< views of the samples of the pieces of a process
 
-/// The noise of the samples. All processes tell each other what they measure, as in the functions below.
+/// The noise of the samples. All processes must call this and the functions below, and exchange their measurements.
 Sample_noise measured_noise(const Views& views, const Image_pieces& pieces, double level, const Ranks& ranks);
 
-/// The scale of smoothing with the least estimated error.
+/// The scale of smoothing with the smallest estimated error.
 double chosen_smoothing(const Views& views, const Image_pieces& pieces, const Sample_noise& noise,
                         const Volume_options& options, const Ranks& ranks);
 
-/// The number of distinct values of the samples, if there are few.
+/// The number of distinct values of the samples if it is small.
 std::optional<std::size_t> counted_values(const Views& views, const Image_pieces& pieces, const Ranks& ranks);
 
-/// Whether the views of all processes have the whole image.
+/// Whether the views of all processes cover the whole image.
 bool are_whole(const Views& views, const Ranks& ranks);
 
 } // namespace equiaffine

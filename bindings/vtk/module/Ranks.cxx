@@ -30,16 +30,16 @@ Ranks::Ranks(vtkMultiProcessController* controller)
 }
 
 void Ranks::check(const std::string& error, bool is_stopped) const {
-  std::array<std::int64_t, 2> processes = {error.empty() ? 0 : 1, is_stopped ? 1 : 0}; // that failed, that are stopped
+  std::array<std::int64_t, 2> processes = {error.empty() ? 0 : 1, is_stopped ? 1 : 0}; // failed, stopped
   sum(processes);
   if (!error.empty()) throw Failure(error);
-  if (processes[0] > 0) throw Failure("another process has failed; its error says why");
+  if (processes[0] > 0) throw Failure("another process has failed; see its error");
   if (processes[1] > 0) throw Stopped_together();
 }
 
 void Ranks::sum(std::span<std::int64_t> numbers) const {
   if (!controller_) return;
-  std::vector<long long> own(numbers.begin(), numbers.end()), sums(own.size()); // a type that VTK sends
+  std::vector<long long> own(numbers.begin(), numbers.end()), sums(own.size()); // a type that VTK can send
   controller_->AllReduce(own.data(), sums.data(), vtkIdType(own.size()), vtkCommunicator::SUM_OP);
   std::copy(sums.begin(), sums.end(), numbers.begin());
 }

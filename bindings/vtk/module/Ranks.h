@@ -16,24 +16,24 @@ class vtkMultiProcessController;
 
 namespace equiaffine {
 
-/// Is thrown by all processes where one of them has failed.
+/// Thrown by all processes if one of them has failed.
 struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Is thrown where the user ends the work of this process.
+/// Thrown if the user stops this process.
 struct Stopped : std::exception {};
 
-/// Is thrown by all processes where one of them is stopped.
+/// Thrown by all processes if one of them is stopped.
 struct Stopped_together : Stopped {};
 
-/// \throw std::invalid_argument with a sentence unless a condition holds
+/// \throw std::invalid_argument with this sentence unless the condition holds
 inline void require(bool condition, const std::string& sentence) {
   if (!condition) throw std::invalid_argument(sentence);
 }
 
-/// The processes that work on the pieces of one image. All of them call the same functions in the same order, whatever
-/// happens to one of them.
+/// The processes that work on the pieces of one image. All of them must call the same functions in the same order, even
+/// if one of them fails.
 class Ranks {
 public:
   /// Without a controller there is one process.
@@ -42,17 +42,16 @@ public:
   int number() const { return number_; } ///< of this process, from 0
   int count() const { return count_; }   ///< of all processes
 
-  /// Throws a Failure in all processes if one has an error, which is a sentence, or empty if there is none. Else throws
-  /// Stopped_together in all if one is stopped.
+  /// Throws a Failure in all processes if one has an error; an empty string means no error. Otherwise throws
+  /// Stopped_together in all processes if one is stopped.
   void check(const std::string& error, bool is_stopped = false) const;
 
   void sum(std::span<std::int64_t> numbers) const; ///< replaces numbers by their sums over all processes
-  void least(std::span<double> numbers) const;     ///< by the least ones
-  void greatest(std::span<double> numbers) const;  ///< by the greatest ones
-  void add(Volume_survey& survey) const;           ///< by the survey of all pieces
+  void least(std::span<double> numbers) const;     ///< replaces numbers by their minima over all processes
+  void greatest(std::span<double> numbers) const;  ///< replaces numbers by their maxima over all processes
+  void add(Volume_survey& survey) const;           ///< replaces the survey by that of all pieces
 
-  /// The numbers of all processes, in the order of the processes. Each may have another number of them. Checks whether
-  /// all processes came here.
+  /// The numbers of all processes, ordered by process. Processes can have different amounts of numbers. Calls check().
   std::vector<double> gather(const std::vector<double>& numbers) const;
 
 private:
@@ -60,8 +59,8 @@ private:
   int number_ = 0, count_ = 1;
 };
 
-/// Calls work() and checks in all processes whether one of them has thrown. Where work() has the processes tell each
-/// other anything, a check must come first, so that they learn of an error of one of them.
+/// Calls work(), then checks in all processes whether one of them has thrown. If work() communicates with other
+/// processes, it must call check() before, so that all processes learn of an error of one of them.
 template <class Work>
 void together(const Ranks& ranks, const Work& work) {
   std::string error;
@@ -69,13 +68,13 @@ void together(const Ranks& ranks, const Work& work) {
   try {
     work();
   } catch (const Failure&) {
-    throw; // by all processes
+    throw; // thrown by all processes
   } catch (const Stopped_together&) {
     throw;
   } catch (const Stopped&) {
     is_stopped = true;
   } catch (const std::bad_alloc&) {
-    error = "there is not enough memory; use more processes";
+    error = "not enough memory; use more processes";
   } catch (const std::exception& e) {
     error = e.what();
   }

@@ -48,7 +48,7 @@ bool Surface_arrays::is_own(Vertex_id least_id) const {
 void Surface_arrays::begin_piece() {
   numbers_.clear();
   if (++pieces_ != 2) return;
-  std::int32_t number = 0; // from now on vertices are looked up
+  std::int32_t number = 0; // vertices are looked up from the second piece on
   for (const vtkIdType id : ids_.numbers()) number_of_.emplace(Vertex_id(id), number++);
 }
 
@@ -71,7 +71,7 @@ void Surface_arrays::add(const Isosurface_slab_3<Kernel>& slab, const Compute& c
   if (triangles_.numbers().size() + 3 * slab.triangles.size() > std::size_t(std::numeric_limits<std::int32_t>::max()))
     throw std::length_error("a piece of the surface has more than 715 million triangles; use more processes");
   const std::vector<std::size_t> places = new_vertices(slab);
-  constexpr std::size_t most = std::size_t(1) << 16; // the attributes of so many vertices are in memory twice
+  constexpr std::size_t most = std::size_t(1) << 16; // number of vertices whose attributes are in memory twice
   for (std::size_t first = 0; first < places.size(); first += most) {
     const auto some = std::span(places).subspan(first, std::min(most, places.size() - first));
     std::vector<Kernel::Point_3> points;
@@ -110,7 +110,7 @@ void Surface_arrays::add(const Isosurface_slab_3<Kernel>& slab, const Compute& c
 }
 
 Surface_arrays::Summary Surface_arrays::add_statistics(const Ranks& ranks, vtkFieldData& data) const {
-  std::array<std::int64_t, 2 + number_of_point_statuses> counts{}; // vertices, triangles, and of each status
+  std::array<std::int64_t, 2 + number_of_point_statuses> counts{}; // vertices, triangles, vertices of each status
   const auto scalars = attributes_.scalars();
   std::vector<double> least(scalars.size(), std::numeric_limits<double>::infinity()), greatest = least;
   for (double& x : greatest) x = -x;
@@ -120,7 +120,7 @@ Surface_arrays::Summary Surface_arrays::add_statistics(const Ranks& ranks, vtkFi
     ++counts[0];
     if (!attributes_.status().empty()) ++counts[2 + attributes_.status()[v]];
     for (std::size_t s = 0; s < scalars.size(); ++s) {
-      least[s] = std::fmin(least[s], scalars[s].values[v]); // leaves NaN out
+      least[s] = std::fmin(least[s], scalars[s].values[v]); // ignores NaN
       greatest[s] = std::fmax(greatest[s], scalars[s].values[v]);
     }
   }
@@ -134,7 +134,7 @@ Surface_arrays::Summary Surface_arrays::add_statistics(const Ranks& ranks, vtkFi
   add_counts(data, "vertices", all.first(1));
   add_counts(data, "triangles", all.subspan(1, 1));
   if (attributes_.has_status()) add_counts(data, "status_counts", all.subspan(2));
-  std::vector<std::string> names; // of those with numbers
+  std::vector<std::string> names; // scalars with at least one number
   for (std::size_t s = 0; s < scalars.size(); ++s) {
     const bool exists = least[s] <= greatest[s];
     if (exists) names.push_back(scalars[s].name);

@@ -28,53 +28,52 @@ class vtkPolyData;
 
 namespace equiaffine {
 
-/// Gathers the slabs of the surfaces of the pieces of a process as arrays for VTK.
+/// Collects the slabs of the surfaces of a process's pieces as arrays for VTK.
 class Surface_arrays {
 public:
   using Kernel = CGAL::Simple_cartesian<double>;
-  /// Computes the attributes of some points, and then the errors.
+  /// Computes the attributes of points, followed by the errors.
   using Compute = std::function<Vertex_attributes(std::span<const Kernel::Point_3>, std::span<const Point_status>)>;
 
-  /// The blocks of cells belong to this process, and the lattice has so many nodes. Ghosts are marked if there may be
-  /// some. Numbers of the rows have errors, unless these are UNTESTED.
+  /// `own` are the blocks of cells of this process, and `nodes` the numbers of nodes of the lattice. Ghosts are marked
+  /// if `has_ghost_points` or `has_ghost_cells`. The numbers of `rows` have errors unless UNTESTED.
   Surface_arrays(const Attribute_selection& selection, const Error_rows& rows, Doubtful doubtful,
                  std::vector<Cell_block> own, const std::array<std::size_t, 3>& nodes, bool has_ghost_points,
                  bool has_ghost_cells)
       : own_(std::move(own)), nodes_(nodes), has_ghost_points_(has_ghost_points), has_ghost_cells_(has_ghost_cells),
         attributes_(selection, doubtful == Doubtful::UNTESTED ? Error_rows() : rows), doubt_(rows, doubtful) {}
 
-  /// Begins the surface of another piece. Pieces of one process share their vertices.
+  /// Starts the surface of the next piece. Pieces of one process share their vertices.
   void begin_piece();
 
   /// Adds the next slab of the piece.
   void add(const Isosurface_slab_3<Kernel>& slab, const Compute& compute);
 
-  /// What the surfaces of all processes have in common.
+  /// Summary of the surfaces of all processes.
   struct Summary {
     std::int64_t vertices;
     Doubt::Verdict verdict;
   };
 
-  /// Adds numbers and ranges of all processes to the field data.
+  /// Adds counts and ranges over all processes to the field data.
   Summary add_statistics(const Ranks& ranks, vtkFieldData& data) const;
 
-  /// Gives the surface to a vtkPolyData.
+  /// Transfers the surface to a vtkPolyData.
   void move_to(vtkPolyData& output);
 
 private:
-  /// Whether the vertex or the triangle with that least id belongs to this process.
+  /// Whether the vertex or the triangle with this least id belongs to this process.
   bool is_own(Vertex_id least_id) const;
 
-  /// Finds the vertices of a slab that no piece before has, and numbers all.
+  /// Numbers the vertices of a slab, and returns the indices of those that no previous piece contains.
   std::vector<std::size_t> new_vertices(const Isosurface_slab_3<Kernel>& slab);
 
   const std::vector<Cell_block> own_;
   const std::array<std::size_t, 3> nodes_;
   const bool has_ghost_points_, has_ghost_cells_;
   std::size_t pieces_ = 0;
-  std::vector<std::int32_t>
-      numbers_; // of the vertices of this piece among all of the process, if it is not the first one
-  std::unordered_map<Vertex_id, std::int32_t> number_of_; // of all vertices, if there are several pieces
+  std::vector<std::int32_t> numbers_; // for each vertex of a later piece, its number among those of the process
+  std::unordered_map<Vertex_id, std::int32_t> number_of_; // number of each vertex, if there are several pieces
   std::size_t vertices_ = 0;
   Growing_array<double> points_;
   Growing_array<vtkIdType> ids_;

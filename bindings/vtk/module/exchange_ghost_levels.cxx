@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// This file is compiled as C++17, since the headers of VTK 9.1 for the exchange are not C++20.
+// Compiled as C++17, since some headers of VTK 9.1 are not valid C++20.
 #include "exchange_ghost_levels.h"
 
 #include <vtkDIYGhostUtilities.h>

@@ -11,8 +11,8 @@ class vtkMultiProcessController;
 
 namespace equiaffine {
 
-/// Replaces images by images that have so many more levels of points around them, as far as other images have them, of
-/// this process or of others.
+/// Extends images by this number of levels of points from neighboring images, of this process or of others. Levels that
+/// no image contains are left out.
 void exchange_ghost_levels(std::vector<vtkSmartPointer<vtkImageData>>& images, int levels,
                            vtkMultiProcessController* controller);
 

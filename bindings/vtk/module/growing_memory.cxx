@@ -13,10 +13,10 @@ namespace equiaffine {
 
 namespace {
 
-/// Stands before the memory, and keeps it aligned.
+/// Precedes the memory, and keeps it aligned.
 union Header {
-  std::size_t bytes; ///< with the header
-  unsigned char room[64];
+  std::size_t bytes; ///< including the header
+  unsigned char padding[64];
 };
 
 } // namespace

@@ -6,12 +6,11 @@
 
 namespace equiaffine {
 
-/// Makes memory larger, which is null at first. On Linux its pages are moved, not copied, and do not mix with other
-/// memory.
+/// Enlarges memory; null allocates it. On Linux its pages are moved, not copied, and are not shared with other memory.
 /// \throw std::bad_alloc
 void* resized_memory(void* memory, std::size_t bytes);
 
-/// Frees what resized_memory() has returned, or nothing for null.
+/// Frees memory that resized_memory() returned. Does nothing for null.
 void free_memory(void* memory);
 
 } // namespace equiaffine

@@ -7,7 +7,7 @@
 
 namespace equiaffine {
 
-/// Whether the user has asked a filter, or since VTK 9.3 the pipeline that it is in, to stop.
+/// Whether the user has aborted a filter or, since VTK 9.3, its pipeline.
 inline bool is_aborted(vtkAlgorithm& filter) {
 #if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 3, 0)
   return filter.CheckAbort();

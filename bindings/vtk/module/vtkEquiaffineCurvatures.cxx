@@ -47,7 +47,7 @@ std::vector<Kernel::Point_3> points_of(vtkPolyData& mesh) {
   return points;
 }
 
-/// The triangles of polygons, which are cut from their first corner, and of strips.
+/// The triangles of strips and of polygons, which are triangulated as fans around their first corner.
 std::vector<Triangle> triangles_of(vtkPolyData& mesh) {
   std::vector<Triangle> triangles;
   const auto add = [&](vtkIdType a, vtkIdType b, vtkIdType c) {
@@ -64,7 +64,7 @@ std::vector<Triangle> triangles_of(vtkPolyData& mesh) {
 
 using Point_with_normal = std::pair<Kernel::Point_3, Kernel::Vector_3>;
 
-/// The points with the active normals. It is empty unless each has one.
+/// The points with the active normals. Empty unless every point has a normal.
 std::vector<Point_with_normal> points_with_normals(vtkPolyData& mesh) {
   vtkDataArray* const normals = mesh.GetPointData()->GetNormals();
   std::vector<Point_with_normal> result;
@@ -139,17 +139,17 @@ int vtkEquiaffineCurvatures::RequestData(vtkInformation*, vtkInformationVector**
                                                 this->Orientation == AGAINST
                                                     ? Orientation_of_level_set::AGAINST_GRADIENT
                                                     : Orientation_of_level_set::ALONG_GRADIENT);
-    std::vector<double> areas; // after the fit, which checks the triangles
+    std::vector<double> areas; // computed after the fit, which checks the triangles
     if (attribute_of_mesh(selection)) areas = selected_vertex_areas(selection, points_of(*input), triangles_of(*input));
     add_columns(structures, selection, areas, this->EstimateErrors, *output->GetPointData());
   } catch (const Aborted&) {
     output->Initialize();
   } catch (const std::bad_alloc&) {
     output->Initialize();
-    vtkErrorMacro("there is not enough memory for the fits to the points of this mesh; give fewer points");
+    vtkErrorMacro("not enough memory for the fits to this mesh; use one with fewer points");
   } catch (const std::exception& error) {
     output->Initialize();
     vtkErrorMacro(<< error.what());
   }
-  return 1; // after an error, too: 0 would make the pipeline print more than the sentence
+  return 1; // also after an error, since 0 would make the pipeline print a second error
 }

@@ -21,7 +21,7 @@ void vtkEquiaffineFunction::PrintSelf(ostream& os, vtkIndent indent) {
 }
 
 void vtkEquiaffineFunction::SetFormula(const char* formula) try {
-  const CGAL::Bbox_3 anywhere(-1, -1, -1, 1, 1, 1); // nothing is looked for in a box
+  const CGAL::Bbox_3 anywhere(-1, -1, -1, 1, 1, 1); // required, but unused
   this->SetFunction(Any_function_3::make(equiaffine::make_analytic_traits<Any_function_3::Kernel>(
       equiaffine::Expression_3(formula ? formula : ""), anywhere)));
 } catch (const equiaffine::Input_error& error) {

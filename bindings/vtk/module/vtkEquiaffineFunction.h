@@ -7,7 +7,7 @@
 #include <vtkImplicitFunction.h>
 
 #ifndef __VTK_WRAP__
-#include <memory> // For what holds the function
+#include <memory> // For std::unique_ptr
 
 namespace equiaffine {
 class Any_function_3;
@@ -16,11 +16,11 @@ class Any_function_3;
 
 /**
  * @class vtkEquiaffineFunction
- * @brief a function of equiaffine as a vtkImplicitFunction: a formula, or any model of ImplicitFunctionTraits_3
+ * @brief a vtkImplicitFunction given by a formula, or by any model of ImplicitFunctionTraits_3
  *
- * It may be sampled, clip and cut like every other implicit function. Outside of the domain of the function, values and
- * gradients are NaN. The other way round, vtkSampleFunction makes an image of an implicit function, and
- * vtkEquiaffineSurface a surface of that image.
+ * You can use it to sample, clip and cut like any other implicit function. Values and gradients are NaN outside the
+ * domain of the function. To mesh any vtkImplicitFunction, sample it with vtkSampleFunction, and apply
+ * vtkEquiaffineSurface to the image.
  */
 class EQUIAFFINEVTK_EXPORT vtkEquiaffineFunction : public vtkImplicitFunction {
 public:
@@ -29,19 +29,19 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * Sets the function by a formula in x, y and z, such as `x^2+y^2+z^2-1`. An error in it is reported, and leaves the
-   * function as it is.
+   * Sets the function to a formula in x, y and z, such as `x^2+y^2+z^2-1`. If the formula is invalid, reports an error
+   * and keeps the previous function.
    */
   void SetFormula(const char* formula);
 
 #ifndef __VTK_WRAP__
-  /** Sets the function, as Any_function_3::make() makes it of any model of ImplicitFunctionTraits_3. */
+  /** Sets the function. Any_function_3::make() converts any model of ImplicitFunctionTraits_3. */
   void SetFunction(const equiaffine::Any_function_3& function);
 #endif
 
   using vtkImplicitFunction::EvaluateFunction;
-  double EvaluateFunction(double x[3]) override;            ///< the value, or 0 before a function is set
-  void EvaluateGradient(double x[3], double g[3]) override; ///< the gradient, or 0 before a function is set
+  double EvaluateFunction(double x[3]) override;            ///< the value, or 0 if no function is set
+  void EvaluateGradient(double x[3], double g[3]) override; ///< the gradient, or 0 if no function is set
 
 protected:
   vtkEquiaffineFunction();

@@ -54,22 +54,22 @@ using namespace equiaffine;
 using Tag = CGAL::Parallel_if_available_tag;
 using Traits = Sampled_function_traits_3<equiaffine::Kernel>;
 
-/// The properties of the filter that say what is computed.
+/// The properties of the filter that determine the result.
 struct Task {
   Piece_request request;
-  Volume_options volume; ///< with a smoothing, as soon as it is chosen
+  Volume_options volume; ///< with a smoothing once it is chosen
   Orientation_of_level_set orientation;
   Vertex_position position;
   Attribute_selection selection;
   Doubtful doubtful;
-  Error_rows errors; ///< of the selected numbers that have some
+  Error_rows errors; ///< of those selected attributes that have errors
 };
 
-/// Errors of a function, of splines through whole images only.
+/// Errors of a function; only available for splines through whole images.
 using Errors = std::optional<Curvature_error_3<equiaffine::Kernel>>;
 
-/// The cells of a piece's image whose samples are used. Around a piece these are fewer than there are if the scale of
-/// smoothing that was chosen is not the greatest one.
+/// The cells of a piece's image whose samples are used. If a scale of smoothing was chosen below the maximum, some
+/// ghost levels are not used.
 Cell_block used_cells(const Image_piece& piece, const Image_pieces& pieces, const Task& task) {
   if (pieces.are_whole) return cells_of(pieces, piece.image);
   const Cell_block all = cells_of(pieces.lattice->size()),
@@ -77,7 +77,7 @@ Cell_block used_cells(const Image_piece& piece, const Image_pieces& pieces, cons
   return clamped(needed_cells(block, *pieces.lattice, task.volume), cells_of(pieces, piece.image));
 }
 
-/// The functions of the pieces of this process. All processes add up what they know of the whole image.
+/// The functions of the pieces of this process. All processes combine their surveys of the whole image.
 std::vector<Traits> functions_of(const Views& views, const Image_pieces& pieces, const Task& task, const Ranks& ranks) {
   std::optional<Volume_survey> survey; // of all pieces
   const auto reduce = [&](Volume_survey own) {
@@ -87,7 +87,7 @@ std::vector<Traits> functions_of(const Views& views, const Image_pieces& pieces,
   };
   std::vector<Traits> functions;
   together(ranks, [&] {
-    if (views.size() > 1) { // the pieces of this process are surveyed first
+    if (views.size() > 1) { // survey the pieces of this process first
       Volume_survey own;
       for (std::size_t n = 0; n < views.size(); ++n)
         Traits(views[n], task.volume, Volume_part{pieces.pieces[n].surveyed, [&](Volume_survey& s) { own.add(s); }},
@@ -108,7 +108,7 @@ std::vector<Traits> functions_of(const Views& views, const Image_pieces& pieces,
   return functions;
 }
 
-/// Throws for a property that makes no sense, under the name that it has here.
+/// Throws if an option is invalid, with the name of the filter's property in the message.
 void check(const Volume_options& options) {
   try {
     options.check();
@@ -141,12 +141,12 @@ void check_that_properties_agree(const Task& task, int component, const Ranks& r
   ranks.least(least);
   ranks.greatest(greatest);
   ranks.check(least == greatest ? ""
-                                : "the properties of the filter differ between processes; set the same everywhere");
+                                : "the properties of the filter differ between processes; set the same in all of them");
 }
 
-/// Throws if there is no number at all, so that the surface is empty whatever the level is.
+/// Throws if all samples are NaN or infinite, so that the surface is empty for every level.
 void check_that_there_are_numbers(const Views& views, const Ranks& ranks) {
-  std::array<std::int64_t, 2> rows = {0, std::int64_t(views.size())}; // those with a number, and pieces
+  std::array<std::int64_t, 2> rows = {0, std::int64_t(views.size())}; // rows with a finite number, and pieces
   for (const auto& view : views) {
     const auto& [first, end] = view.cells();
     std::vector<double> row(end[0] + 1 - first[0]);
@@ -157,11 +157,11 @@ void check_that_there_are_numbers(const Views& views, const Ranks& ranks) {
       }
   }
   ranks.sum(rows);
-  ranks.check(rows[0] == 0 && rows[1] > 0 ? "no point of the image has a finite number; choose another array" : "");
+  ranks.check(rows[0] == 0 && rows[1] > 0 ? "the array has no finite values; choose another array" : "");
 }
 
-/// The cells around a block where the function is known, some of them at least, if there are samples at the nodes of
-/// the cells `have`.
+/// Cells around a block in which the function is known, given samples at the nodes of the cells `have`. Not necessarily
+/// all such cells.
 Cell_block known_cells(const Cell_block& block, const Cell_block& have, const Image_pieces& pieces,
                        const Volume_options& options) {
   const Cell_block all = cells_of(pieces.lattice->size());
@@ -175,14 +175,14 @@ Cell_block known_cells(const Cell_block& block, const Cell_block& have, const Im
   }
 }
 
-/// Layers per slab: a quarter of the block, so that at most a quarter of its surface is in memory twice. Thinner slabs
-/// would make more layers again beside their seams.
+/// Layers per slab: a quarter of the block, so at most a quarter of its surface is in memory twice. Thinner slabs
+/// recompute more layers at their boundaries.
 std::size_t layers_of_slab(const Cell_block& block) {
   constexpr std::size_t least = 32;
   return std::max(least, (block.end[2] - block.first[2] + 3) / 4);
 }
 
-/// Adds the columns with errors to those of attributes.
+/// Adds the columns of errors to the attributes.
 void add_errors(const Errors& errors, std::span<const equiaffine::Kernel::Point_3> points, const Error_rows& rows,
                 Vertex_attributes& attributes) {
   if (!errors) return;
@@ -196,7 +196,7 @@ void add_errors(const Errors& errors, std::span<const equiaffine::Kernel::Point_
   }
 }
 
-/// Meshes the pieces, and calls advance(part) with the part of the work that is done, from 0 to 1.
+/// Meshes the pieces, and calls advance(part) with the finished fraction of the work, from 0 to 1.
 template <class Advance>
 void mesh_pieces(const std::vector<Traits>& functions, const Views& views, const Image_pieces& pieces, const Task& task,
                  const std::optional<Sample_noise>& noise, Surface_arrays& arrays, const Advance& advance) {
@@ -262,7 +262,8 @@ void vtkEquiaffineSurface::PrintSelf(ostream& os, vtkIndent indent) {
 int vtkEquiaffineSurface::FillInputPortInformation(int, vtkInformation* info) {
   info->Remove(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE());
   info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet"); // else its parts come one by one
+  // Otherwise the pipeline would call the filter separately for each block.
+  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
   return 1;
 }
 
@@ -284,7 +285,7 @@ equiaffine::Volume_options vtkEquiaffineSurface::GetOptions() const {
           .level = this->Level};
 }
 
-// A piece of an image is asked for with its ghost levels where every process has its piece, else the whole image.
+// Requests a piece of the image with ghost levels if every process has one piece, otherwise the whole image.
 int vtkEquiaffineSurface::RequestUpdateExtent(vtkInformation*, vtkInformationVector** inputs,
                                               vtkInformationVector* outputs) {
   using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -293,7 +294,7 @@ int vtkEquiaffineSurface::RequestUpdateExtent(vtkInformation*, vtkInformationVec
   const int ghosts = output->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS());
   const Ranks ranks(this->Controller);
   const int pieces = std::max(1, output->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()));
-  if (pieces == 1 && ranks.count() > 1) { // nothing was said of pieces
+  if (pieces == 1 && ranks.count() > 1) { // no piece was requested
     input->Set(Pipeline::UPDATE_PIECE_NUMBER(), ranks.number());
     input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), ranks.count());
   }
@@ -303,7 +304,7 @@ int vtkEquiaffineSurface::RequestUpdateExtent(vtkInformation*, vtkInformationVec
     int levels = 0;
     try {
       levels = needed_ghost_levels(this->GetOptions());
-    } catch (const Input_error&) { // RequestData() says what is wrong
+    } catch (const Input_error&) { // RequestData() reports the error
     }
     input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), ghosts + levels);
   } else {
@@ -323,7 +324,7 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
   const Ranks ranks(this->Controller);
   try {
     const int pieces_wanted = std::max(1, info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()));
-    const bool is_of_process = pieces_wanted == 1; // every process makes its piece, also if nothing was said
+    const bool is_of_process = pieces_wanted == 1; // each process makes its piece if no piece was requested
     Task task = {{.piece = is_of_process ? ranks.number() : info->Get(Pipeline::UPDATE_PIECE_NUMBER()),
                   .pieces = is_of_process ? ranks.count() : pieces_wanted,
                   .ghost_levels = info->Get(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()),
@@ -343,13 +344,14 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
       check(task.volume);
       const bool has_attributes = this->Attributes && *this->Attributes != '\0';
       task.selection = select_attributes(has_attributes ? this->Attributes : "none");
-      refuse_attributes_of_mesh(task.selection); // slabs and pieces are not a whole mesh
+      refuse_attributes_of_mesh(task.selection); // slabs and pieces are not whole meshes
       task.errors = this->EstimateErrors ? selected_errors(task.selection, true) : Error_rows();
       require(task.volume.spline_scheme != Spline_scheme::INTERPOLATION || ranks.count() == 1,
-              "spline interpolation needs the whole image in one process; choose quasi-interpolation");
+              "spline interpolation needs the whole image in one process; use one process, or choose "
+              "quasi-interpolation");
       images = images_of(data, this->ArrayComponent, [this](vtkImageData* image) -> vtkDataArray* {
         const char* const name = this->GetInputArrayInformation(0)->Get(vtkDataObject::FIELD_NAME());
-        if (name && *name == '\0') return image->GetPointData()->GetScalars(); // as a script that names none
+        if (name && *name == '\0') return image->GetPointData()->GetScalars(); // a script can leave the name empty
         int association = vtkDataObject::FIELD_ASSOCIATION_POINTS;
         vtkDataArray* const array = this->GetInputArrayToProcess(0, image, association);
         return association == vtkDataObject::FIELD_ASSOCIATION_POINTS ? array : nullptr;
@@ -408,14 +410,13 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
     const auto values = is_of_steps ? counted_values(views, pieces, ranks) : std::nullopt;
     if (vertices == 0 || ranks.number() > 0) return 1;
     if (values)
-      vtkWarningMacro("the samples have " << *values
-                                          << " distinct values only, and curvatures are those of the steps between "
-                                             "them; smooth the samples, AutomaticSmoothing");
+      vtkWarningMacro("the samples have only " << *values << " distinct values, and the curvatures show the steps "
+                                                             "between them; set Smoothing or AutomaticSmoothing");
     for (const std::string& sentence : verdict.sentences) vtkWarningMacro(<< sentence);
     if (!has_errors && !task.errors.empty())
       vtkWarningMacro(
-          "errors of affine curvatures are not estimated, since that needs the whole image in each process; "
-          "give it, or set EstimateErrors to off");
+          "the errors of affine curvatures are not estimated, since that needs the whole image in each process; "
+          "provide it, or turn EstimateErrors off");
   } catch (const Stopped&) {
     output->Initialize();
   } catch (const Failure& error) {
@@ -425,5 +426,5 @@ int vtkEquiaffineSurface::RequestData(vtkInformation*, vtkInformationVector** in
     output->Initialize();
     vtkErrorMacro(<< error.what());
   }
-  return 1; // after an error, too: 0 would make the pipeline print more than the sentence
+  return 1; // also after an error, since 0 would make the pipeline print a second error
 }

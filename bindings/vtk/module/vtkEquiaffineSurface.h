@@ -18,49 +18,48 @@ struct Volume_options;
  * @class vtkEquiaffineSurface
  * @brief extracts an isosurface of an image, with its Euclidean and equi-affine structure
  *
- * The surface is that of the spline through the samples of a vtkImageData, or of the images of a composite data set
- * such as a vtkPartitionedDataSet, which are pieces of one image. Its topology is that of the trilinear interpolant;
- * its points lie on the level set of the spline, whose derivatives up to order four give the structure there. An image
- * has one of the numeric types of VTK, any direction matrix, left-handed ones included, and any extent. NaN marks a
- * point without a value, at which the surface ends.
+ * The input is a vtkImageData, or a composite data set such as a vtkPartitionedDataSet whose images are pieces of one
+ * image. The surface has the topology of the trilinear interpolant. Its points lie on the level set of a spline through
+ * the samples, whose derivatives up to order four determine the structure there. Images can have any numeric type of
+ * VTK, any direction matrix, including left-handed ones, and any extent. NaN marks a point without a value, at which
+ * the surface ends. Hidden points are used like other points.
  *
- * The output is a vtkPolyData of triangles with, for n points:
+ * The output is a vtkPolyData of triangles with:
  *
  * | point data | type | components | meaning |
  * |---|---|---|---|
  * | one array per attribute | double | 1, 3 or 6 | NaN where the quantity does not exist; see SetAttributes() |
- * | `normal` | double | 3 | among the attributes, and the active normals |
+ * | `normal` | double | 3 | one of the attributes, and the active normals |
  * | `affine_gaussian_curvature_error`, `affine_mean_curvature_error` | double | 1 | estimated errors of these attributes; see SetEstimateErrors() |
  * | `status` | unsigned char | 1 | 0 regular, 1 parabolic, 2 singular, 3 outside, 4 unconverged |
- * | `vertex_id` | vtkIdType | 1 | global ids: equal in all pieces, of which equal ones are one vertex |
+ * | `vertex_id` | vtkIdType | 1 | global ids: equal ids in different pieces are the same vertex |
  * | `vtkGhostType` | unsigned char | 1 | with several pieces: 1 for a point that belongs to another piece |
  *
  * | cell data | type | components | meaning |
  * |---|---|---|---|
- * | `vtkGhostType` | unsigned char | 1 | if ghost cells were asked for: 1 for a triangle of another piece |
+ * | `vtkGhostType` | unsigned char | 1 | if ghost cells are requested: 1 for a triangle of another piece |
  *
  * | field data | type | tuples x components | meaning |
  * |---|---|---|---|
- * | `vertices`, `triangles` | vtkIdType | 1 x 1 | of all pieces together, each counted once |
- * | `smoothing` | double | 1 x 1 | the scale by which samples were smoothed, which is set or chosen |
- * | `noise` | double | 1 x 1 | the standard deviation of the noise of the samples, where errors or the smoothing need it |
- * | `status_counts` | vtkIdType | 1 x 5 | how many vertices have each status |
- * | NAME`_range` | double | 1 x 2 | least and greatest value of a scalar attribute; NaN, NaN if it exists nowhere |
+ * | `vertices`, `triangles` | vtkIdType | 1 x 1 | counts over all pieces; shared elements count once |
+ * | `smoothing` | double | 1 x 1 | scale of the smoothing of the samples, set or chosen |
+ * | `noise` | double | 1 x 1 | standard deviation of the noise of the samples, if needed for errors or smoothing |
+ * | `status_counts` | vtkIdType | 1 x 5 | number of vertices with each status, if `status` is selected |
+ * | NAME`_range` | double | 1 x 2 | minimum and maximum of a scalar attribute; NaN, NaN if it exists nowhere |
  *
- * In several processes every one meshes its piece, and all pieces together are the mesh of the whole image without
- * EstimateErrors, bit for bit, as are the field data. The filter asks upstream for the ghost levels that it needs
- * (GetNumberOfGhostLevels()), and gets them from the pieces beside if the source has none. It must execute in all
- * processes, with the same properties. One process may make the pieces one after the other: it then asks for the whole
- * image, and field data are of a piece. Pieces may differ where the image has the level at more than four points in a
- * row and is less around them: such parts without area are dropped if they are known whole, and else have triangles of
- * less than 1e-6 of the spacing.
+ * Each process meshes its own piece. Without EstimateErrors, the union of the pieces and the field data are bit for bit
+ * those of the whole image. The filter requests the ghost levels that it needs (GetNumberOfGhostLevels()) upstream, or
+ * exchanges them between processes if the source does not provide them. It must execute in all processes with the same
+ * properties. One process can also make the pieces one after the other; it then requests the whole image, and the field
+ * data are those of a piece. Pieces can differ where more than four consecutive points have the level exactly and the
+ * image is less around them: such parts of the surface, which have no area, are dropped if a piece contains all of
+ * them, and otherwise have triangles smaller than 1e-6 of the spacing.
  *
- * Hidden points count as others. The status_counts are there with the status.
+ * The active scalars are the quantity that pages of the program show by default, the first one that is known. Warnings
+ * list curvatures that are unknown at most vertices, and point out samples with few distinct values, whose curvatures
+ * show the steps between them.
  *
- * The active scalars are what the pages of the program show first: the quantity that is known first. Warnings say which
- * curvatures are unknown at most vertices, and that samples of few distinct values have curvatures of steps.
- *
- * An error is reported in one sentence, and leaves an empty output.
+ * After an error the output is empty.
  */
 class EQUIAFFINEVTK_EXPORT vtkEquiaffineSurface : public vtkPolyDataAlgorithm {
 public:
@@ -83,8 +82,8 @@ public:
   enum { QUASI_INTERPOLATION = 0, CONVOLUTION = 1, INTERPOLATION = 2 };
   ///@{
   /**
-   * How samples become a spline: QUASI_INTERPOLATION by default. CONVOLUTION smooths, and needs up to three ghost
-   * levels less. INTERPOLATION needs the whole image in one process.
+   * How the spline is computed from the samples: QUASI_INTERPOLATION by default. CONVOLUTION smooths, and needs up to
+   * three ghost levels fewer. INTERPOLATION needs the whole image in one process.
    */
   vtkSetClampMacro(SplineScheme, int, 0, 2);
   vtkGetMacro(SplineScheme, int);
@@ -94,16 +93,16 @@ public:
   ///@}
 
   ///@{
-  /** The scale in points by which samples are smoothed first, which scans need; 0, the default, and up to 1: not. */
+  /** Scale of the smoothing of the samples, in points; 0, the default, and values up to 1 do nothing. Scans need it. */
   vtkSetClampMacro(Smoothing, double, 0, 100);
   vtkGetMacro(Smoothing, double);
   ///@}
 
   ///@{
   /**
-   * Whether the scale of smoothing is chosen, whatever SetSmoothing() says: the one with the least estimated error of
-   * fourth derivatives that leaves the surface where it is, from the noise beside it; 0 for none. Off by default, since
-   * pieces need 51 ghost levels for it. All processes choose the scale that one process chooses.
+   * Whether to choose the scale of smoothing from the noise near the surface, instead of SetSmoothing(): the one with
+   * the smallest estimated error of fourth derivatives that does not move the surface; it can be 0. Off by default,
+   * since pieces need 51 ghost levels for it. The choice does not depend on the number of processes.
    */
   vtkSetMacro(AutomaticSmoothing, bool);
   vtkGetMacro(AutomaticSmoothing, bool);
@@ -112,8 +111,8 @@ public:
 
   ///@{
   /**
-   * Whether the errors of affine curvatures are estimated, which takes as long again as all attributes; on by default.
-   * This needs the whole image in each process: else a warning says so, and the active scalars are other ones.
+   * Whether to estimate the errors of affine curvatures, which takes as long as all attributes; on by default. This
+   * needs the whole image in each process; otherwise the filter warns, and chooses different active scalars.
    */
   vtkSetMacro(EstimateErrors, bool);
   vtkGetMacro(EstimateErrors, bool);
@@ -122,8 +121,8 @@ public:
 
   ///@{
   /**
-   * Whether affine curvatures that are unknown are NaN, for which ParaView has a color of its own: their estimated
-   * error is more than half of their size; on by default.
+   * Whether to replace unknown affine curvatures, whose estimated error exceeds half of their size, by NaN, which
+   * ParaView shows in a separate color; on by default.
    */
   vtkSetMacro(HideUnknown, bool);
   vtkGetMacro(HideUnknown, bool);
@@ -132,8 +131,8 @@ public:
 
   ///@{
   /**
-   * The attributes: `all` by default, `basic`, `none`, or names with commas between them. `signature`, the affine
-   * curvatures with the norms of their gradients, takes 40 times as long. The manual lists all names.
+   * The attributes: `all` (the default), `basic`, `none`, or comma-separated names. `signature`, the affine curvatures
+   * with the norms of their gradients, takes 40 times as long. The manual lists all names.
    */
   vtkSetStringMacro(Attributes);
   vtkGetStringMacro(Attributes);
@@ -160,20 +159,18 @@ public:
   ///@}
 
   ///@{
-  /** The component of the scalars that is the function; 0 by default. */
+  /** The component of the array to use, counted from 0; 0 by default. */
   vtkSetClampMacro(ArrayComponent, int, 0, VTK_INT_MAX);
   vtkGetMacro(ArrayComponent, int);
   ///@}
 
   ///@{
-  /** The processes that have pieces of the image; the global controller by default. */
+  /** The controller of the processes that have pieces of the image; the global controller by default. */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
   ///@}
 
-  /**
-   * The ghost levels of the image that a piece needs with these properties: 0 for INTERPOLATION, which has no pieces.
-   */
+  /** The number of ghost levels of the image that a piece needs; 0 for INTERPOLATION, which does not support pieces. */
   int GetNumberOfGhostLevels();
 
 protected:

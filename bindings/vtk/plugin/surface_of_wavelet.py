@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# A picture of the affine mean curvature of a level set, and its numbers: a state of ParaView (File > Load State), and a
-# script for pvbatch in any number of processes, which writes them to a folder:
+# Shows the mean curvature of a level set. Load it in ParaView (File > Load State), or run it with pvbatch in any number
+# of processes to write a picture and a state file to a folder:
 #   mpirun -np 4 pvbatch surface_of_wavelet.py FOLDER
 import sys
 from pathlib import Path

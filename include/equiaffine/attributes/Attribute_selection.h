@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A choice among the attributes of points, by name.
+// Selects attributes of points by name.
 #ifndef EQUIAFFINE_ATTRIBUTES_ATTRIBUTE_SELECTION_H
 #define EQUIAFFINE_ATTRIBUTES_ATTRIBUTE_SELECTION_H
 
@@ -28,8 +28,8 @@ constexpr bool is_selected_by(const Attribute_row<double>& row, std::size_t comp
   return name == row.name || name == row.column(component);
 }
 
-/// Calls select(row, component) for all that `name` stands for, in the order of the table. Returns false if it is
-/// unknown.
+/// Calls select(row, component) for everything `name` stands for, in the order of the table. Returns false if the
+/// name is unknown.
 template <class Select>
 bool select_by_name(std::string_view name, const Select& select) {
   bool is_known = name == "status";
@@ -42,7 +42,7 @@ bool select_by_name(std::string_view name, const Select& select) {
   return is_known;
 }
 
-/// Reads a list of names with commas between them: calls select(row, component) for what they stand for.
+/// Reads a comma-separated list of names, and calls select(row, component) for everything they stand for.
 /// \throw Input_error for an unknown name.
 template <class Select>
 void read_attribute_names(std::string_view list, const Select& select) {
@@ -66,8 +66,8 @@ struct Attribute {
   std::size_t row,       ///< of attribute_table
       component;         ///< of the vector or form in that row; 0 for a scalar
 
-  /// Returns the number from a sample, or the pack of numbers from a sample of packs. It is NaN for the norm of a
-  /// gradient, which a sample does not have.
+  /// Returns the number from a sample, or a pack of numbers from a sample of packs. It is NaN for the norm of a
+  /// gradient, which a sample does not contain.
   template <class FT>
   FT get(const Attribute_sample<FT>& sample) const {
     const auto getter = attribute_table<FT>[row].get;
@@ -80,16 +80,16 @@ struct Attribute {
   }
 };
 
-/// Which attributes to compute, and whether the status comes with them.
+/// The attributes to compute, and whether to compute the status.
 struct Attribute_selection {
-  std::vector<Attribute> columns; ///< in the order that they were asked for
-  bool has_status = true;         ///< whether the status is asked for, too
+  std::vector<Attribute> columns; ///< in the order of the request
+  bool has_status = true;         ///< whether the status is selected, too
 };
 
-/// Reads `basic`, `all`, `none`, or a comma-separated list of names of attributes, of their components (`nx`), of
-/// `signature` and `status`. `signature` is K, H, J and the norms of their gradients. Columns come in the order of the
-/// list, those of one name in the order of the table, and each of them once.
-/// \throw Input_error for another name.
+/// Reads `basic`, `all`, `none`, or a comma-separated list of names of attributes, of their components (`nx`), and
+/// of `signature` and `status`. `signature` is K, H, J and the norms of their gradients. Columns have the order of
+/// the list, and those of one name the order of the table; each column occurs once.
+/// \throw Input_error for an unknown name.
 inline Attribute_selection select_attributes(std::string_view list) {
   if (list == "none") return {{}, false};
   Attribute_selection selection;
@@ -101,7 +101,7 @@ inline Attribute_selection select_attributes(std::string_view list) {
   return selection;
 }
 
-/// Returns a selected attribute that only the vertices of a mesh with faces have, such as `vertex_area`, or null.
+/// Returns a selected attribute that exists only at vertices of a mesh with faces, such as `vertex_area`, or null.
 inline const Attribute* attribute_of_mesh(const Attribute_selection& selection) {
   for (const Attribute& column : selection.columns)
     if (attribute_table<double>[column.row].lists & attribute_lists::of_mesh) return &column;
@@ -112,11 +112,11 @@ inline const Attribute* attribute_of_mesh(const Attribute_selection& selection) 
 inline void refuse_attributes_of_mesh(const Attribute_selection& selection) {
   if (const Attribute* const attribute = attribute_of_mesh(selection))
     throw Input_error("the attribute '" + std::string(attribute->name) +
-                      "' is only known at the vertices of a whole mesh: leave it out, or give a mesh with faces");
+                      "' needs a mesh with faces: leave it out, or give a mesh with faces");
 }
 
-/// Returns the areas around the vertices of a mesh if a selected attribute needs them, or else nothing.
-/// \throw Input_error if one needs them, and there are points without polygons.
+/// Returns the areas around the vertices of a mesh if a selected attribute needs them, or else an empty vector.
+/// \throw Input_error if an attribute needs them, and there are points but no polygons.
 template <class Points, class Polygons>
 std::vector<double> selected_vertex_areas(const Attribute_selection& selection, const Points& points,
                                           const Polygons& polygons) {
@@ -125,7 +125,7 @@ std::vector<double> selected_vertex_areas(const Attribute_selection& selection, 
   return vertex_areas(points, polygons);
 }
 
-/// The names that select_attributes() reads, vectors and forms by one name each, for a text of help.
+/// The names that select_attributes() reads, one for each vector or form, for help texts.
 struct Attribute_names {
   std::vector<std::string_view> basic;        ///< in `basic`
   std::vector<std::string_view> added_by_all; ///< in `all` and not in `basic`
@@ -133,7 +133,7 @@ struct Attribute_names {
   std::vector<std::string_view> signature;    ///< in `signature`
 };
 
-/// Returns these names, in the order of the table.
+/// Returns these names in the order of the table.
 inline Attribute_names attribute_names() {
   using namespace attribute_lists;
   Attribute_names names;

@@ -20,16 +20,16 @@
 
 namespace equiaffine {
 
-/// Estimates at points the errors of the affine Gaussian and mean curvature of the spline through the samples of a
-/// volume, smoothed or not. The estimate is twice the sum of two numbers: the standard deviation of the curvature that
-/// white noise of the samples causes, and the difference to the curvature of a second spline. The second spline is
-/// smoothed by 6/5 of the scale, which makes the error of smoothing 4.3 times as large; it has degree 9 (or 7, if the
-/// first one has degree 9), which changes the order of the error of the spline; and it uses quasi-interpolation if the
-/// first one uses convolution.
+/// Estimates the errors of the affine Gaussian and mean curvature of the spline through the samples of a volume,
+/// smoothed or not. The estimate is twice the sum of two numbers: the standard deviation of the curvature due to
+/// white noise of the samples, and the difference to the curvature of a second spline. The second spline is smoothed
+/// by 6/5 of the scale, so its smoothing error is 4.3 times as large. It has degree 9 (or 7, if the first one has
+/// degree 9), which changes the order of its approximation error, and it uses quasi-interpolation if the first one
+/// uses convolution.
 ///
-/// The standard deviation is computed from 35 independent disturbances of the expansion, each as large as the noise
-/// makes it, for which the curvatures are computed again. An estimate cannot see what both splines miss, such as
-/// details smaller than a voxel. It is NaN where a curvature does not exist. Takes some 10 microseconds per point.
+/// The standard deviation comes from 35 independent perturbations of the expansion, each of the size that the noise
+/// causes; the curvatures are recomputed for each. The estimate cannot detect what both splines miss, such as
+/// details smaller than a voxel. It is NaN where a curvature does not exist. Takes about 10 microseconds per point.
 /// Copies share the immutable data.
 template <class Kernel>
 class Curvature_error_3 {
@@ -37,8 +37,8 @@ public:
   using FT = typename Kernel::FT;           ///< the number type of the kernel
   using Point_3 = typename Kernel::Point_3; ///< points of the kernel
 
-  /// `function` is the spline through the samples of `volume` after these were smoothed by the scale `smoothing`. The
-  /// deviation of the noise is in the unit of the samples, see Sample_noise.
+  /// `function` is the spline through the samples of `volume`, smoothed by the scale `smoothing`. The deviation of
+  /// the noise is in the unit of the samples, see Sample_noise.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Curvature_error_3(const Sampled_function_traits_3<Kernel>& function, const Volume_view_3<Kernel>& volume,
                     const FT& smoothing, const FT& noise_deviation, ConcurrencyTag tag = {})
@@ -53,7 +53,7 @@ public:
   const Lattice_3<Kernel>& lattice() const { return function_.lattice(); } ///< the lattice of the samples
   /// The cell of the lattice that contains p, if p is in the support of the splines.
   std::optional<std::array<std::size_t, 3>> cell_of(const Point_3& p) const { return function_.cell_of(p); }
-  /// The same estimates, cheaper in memory in these cells: see Spline_function_3::restricted_to_cells().
+  /// The same estimates with less memory for these cells, see Spline_function_3::restricted_to_cells().
   Curvature_error_3 restricted_to_cells(const Cell_block& cells) const {
     Curvature_error_3 result = *this;
     result.function_ = function_.restricted_to_cells(cells);
@@ -61,7 +61,7 @@ public:
     return result;
   }
 
-  /// The same estimates if the samples, smoothed by the scale `smoothing`, had noise of that deviation.
+  /// The same estimates for noise of that deviation in samples smoothed by the scale `smoothing`.
   Curvature_error_3 with_noise(const FT& smoothing, const FT& deviation) const {
     Curvature_error_3 result = *this;
     result.disturbances_ =
@@ -97,7 +97,7 @@ private:
     FT gaussian, mean;
   };
 
-  /// The scheme of the second spline. It is not convolution, whose error is almost the same for all degrees.
+  /// The second spline does not use convolution, whose error is almost the same for all degrees.
   static Spline_scheme other_scheme(Spline_scheme scheme) {
     return scheme == Spline_scheme::INTERPOLATION ? scheme : Spline_scheme::QUASI_INTERPOLATION;
   }

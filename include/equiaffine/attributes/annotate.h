@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Puts the local structure of level sets into property maps of meshes and ranges.
+// Writes the local structure of level sets to property maps of meshes and ranges.
 #ifndef EQUIAFFINE_ATTRIBUTES_ANNOTATE_H
 #define EQUIAFFINE_ATTRIBUTES_ANNOTATE_H
 
@@ -35,7 +35,7 @@ auto structure_at(const Traits& traits, const Point& p, Point_status before) {
   return local_structure_at(traits, convert_point<Kernel_of<Traits>>(p), before);
 }
 
-/// The points of elements, with the kernel of the function.
+/// The points of elements, in the kernel of the function.
 template <class Traits, class Elements, class Point_of>
 std::vector<typename Traits::Point_3> points_of_elements(Elements&& elements, const Point_of& point_of) {
   std::vector<typename Traits::Point_3> points;
@@ -47,10 +47,10 @@ std::vector<typename Traits::Point_3> points_of_elements(Elements&& elements, co
   return points;
 }
 
-/// Fills the maps that are given, for elements with points: vertices of a mesh, or elements of a range. Attributes are
-/// computed as by compute_attributes(); whole structures, and those of other numbers than double, one by one, in
-/// threads. Maps are read and written sequentially, because reading boost::associative_property_map may insert an
-/// element.
+/// Fills the given maps for elements with points: vertices of a mesh, or elements of a range. Attributes are
+/// computed as in compute_attributes(). Whole structures, and those of number types other than double, are computed
+/// one by one in threads. Maps are read and written sequentially, because reading a boost::associative_property_map
+/// may insert an element.
 template <class ConcurrencyTag, class Elements, class Point_of, class Traits, class Parameters>
 void annotate_elements(Elements&& elements, const Point_of& point_of, const Traits& traits,
                        const Parameters& parameters) {
@@ -85,7 +85,7 @@ void annotate_elements(Elements&& elements, const Point_of& point_of, const Trai
   }
 }
 
-/// Fills the maps `v:NAME` of a surface mesh with all that is known of its vertices.
+/// Fills the maps `v:NAME` of a surface mesh with all attributes of its vertices.
 template <class ConcurrencyTag, class Mesh, class Point_of, class Traits>
 void annotate_surface_mesh(Mesh& mesh, const Point_of& point_of, const Traits& traits) {
   check_mesh_for_maps<Mesh>();
@@ -102,14 +102,14 @@ void annotate_surface_mesh(Mesh& mesh, const Point_of& point_of, const Traits& t
 
 namespace equiaffine {
 
-/// Puts the local structure of the level sets of f through the vertices of a mesh into property maps. The mesh is a
-/// model of CGAL's VertexListGraph with any faces, or none; its kernel need not be that of the function, but has
-/// coordinates that are doubles.
+/// Writes the local structure of the level sets of f through the vertices of a mesh to property maps. The mesh is a
+/// model of CGAL's VertexListGraph, with or without faces. Its kernel can differ from that of the function, but its
+/// coordinates must be doubles.
 ///
-/// The maps are named parameters, each of which is filled if it is given. Those of CGAL have its sign: curvatures of
-/// spheres are positive, the opposite of Euclidean_structure_3. A vector is put as what the map holds, if that can be
-/// made of three numbers, and principal curvatures as a struct with the members of CGAL's
-/// Principal_curvatures_and_directions.
+/// The maps are named parameters; those that are given are filled. Maps known from CGAL use CGAL's sign: curvatures
+/// of spheres are positive, opposite to Euclidean_structure_3. A vector is converted to the value type of the map if
+/// that can be constructed from three numbers. Principal curvatures are written to a struct with the members of
+/// CGAL's Principal_curvatures_and_directions.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
@@ -127,18 +127,19 @@ namespace equiaffine {
 /// | `vertex_Gaussian_curvature_map` | map of numbers | none | K_e, of CGAL |
 /// | `vertex_principal_curvatures_and_directions_map` | map of structs | none | k_1, k_2 with directions, of CGAL |
 /// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
-/// A CGAL::Surface_mesh without such a map gets `v:status` (Point_status), `v:normal`, `v:conormal`, `v:affine_normal`,
-/// `v:direction1`, `v:direction2` (Vector_3), and one of FT for every other attribute in doc/program.md but the
-/// norms of gradients: `v:k1`, `v:metric_xx`, `v:quadric_defect` and so on. `v:vertex_area` and `v:affine_area` need
-/// faces; polygons with n corners give each the n-th part of their area. The maps have the sign of
-/// Euclidean_structure_3: on a unit sphere with f < 0 inside, `v:mean_curvature` is -1, and what is put into
-/// `vertex_mean_curvature_map` is 1.
+/// `geom_traits` and `verbose` are accepted for compatibility with CGAL, and ignored.
 ///
-/// A vertex whose status is UNCONVERGED before the call keeps that status, unless it is OUTSIDE. CGAL::Sequential_tag
-/// and CGAL::Parallel_tag give the same numbers. Named parameters come in one chain or several, equiaffine's and
-/// CGAL's:
+/// If no map to fill is given, a CGAL::Surface_mesh gets `v:status` (Point_status), `v:normal`, `v:conormal`,
+/// `v:affine_normal`, `v:direction1`, `v:direction2` (Vector_3), and a map of FT for every other attribute in
+/// doc/program.md except the norms of gradients: `v:k1`, `v:metric_xx`, `v:quadric_defect` and so on.
+/// `v:vertex_area` and `v:affine_area` require faces; polygons with n corners contribute one n-th of their area to
+/// each. These maps have the sign of Euclidean_structure_3: on a unit sphere with f < 0 inside, `v:mean_curvature`
+/// is -1, and the value in `vertex_mean_curvature_map` is 1.
+///
+/// A vertex marked as UNCONVERGED before the call keeps that status, unless it is OUTSIDE. CGAL::Sequential_tag and
+/// CGAL::Parallel_tag give the same numbers. Named parameters of equiaffine and of CGAL can be in one chain or
+/// several:
 /// \code
 /// annotate(graph, traits, CGAL::parameters::vertex_point_map(points),
 ///          equiaffine::parameters::vertex_pick_invariant_map(map));
@@ -157,7 +158,7 @@ void annotate(Graph& graph, const Traits& traits, const Parameters&... given) {
   else internal::annotate_elements<ConcurrencyTag>(vertices_of(graph), point_of, traits, parameters);
 }
 
-/// The same for one vertex, whose structure is returned, too. A Surface_mesh gets no maps of its own here.
+/// The same for one vertex; also returns its structure. A Surface_mesh gets no maps of its own here.
 template <class Vertex, Vertex_graph Graph, ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
 Local_structure_3<typename Traits::FT> annotate(const Vertex& v, const Graph& graph, const Traits& traits,
                                                 const Parameters&... given) {
@@ -169,8 +170,8 @@ Local_structure_3<typename Traits::FT> annotate(const Vertex& v, const Graph& gr
   return structure;
 }
 
-/// The same for a range, such as CGAL::Point_set_3: maps are from its elements. They are points, or a member of the
-/// range gives their points, or the named parameter `point_map`, a property map, in the place of `vertex_point_map`.
+/// The same for a range, such as CGAL::Point_set_3; the keys of maps are its elements. The elements are points, or a
+/// member of the range or the named parameter `point_map` (in the place of `vertex_point_map`) maps them to points.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::forward_range Points,
           ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
 void annotate(Points&& points, const Traits& traits, const Parameters&... given) requires(!Vertex_graph<Points>) {
@@ -180,7 +181,7 @@ void annotate(Points&& points, const Traits& traits, const Parameters&... given)
 }
 
 /// \cond
-// Calls that are mistaken, see function/concepts.h.
+// Overloads for invalid calls, see function/concepts.h.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class Traits, class... Others>
 void annotate(const Elements&, const Traits&, const Others&...) requires(
     (Vertex_graph<Elements> || std::ranges::input_range<Elements>)&&!(ImplicitFunctionTraits_3<Traits> &&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Puts what fits to a mesh or to points tell of it into property maps.
+// Writes local structures, and their estimated errors, from fits to a mesh or to points to property maps.
 #ifndef EQUIAFFINE_ATTRIBUTES_ANNOTATE_BY_FIT_H
 #define EQUIAFFINE_ATTRIBUTES_ANNOTATE_BY_FIT_H
 
@@ -43,7 +43,7 @@ void put_structure_of_fit(const Parameters& parameters, Key& key, const Fitted_s
   put_structure(parameters, key, structure, Error_tags());
 }
 
-/// Fills the maps that are given with the structures of the elements, in their order.
+/// Fills the given maps with the structures of the elements, in their order.
 template <class Parameters, class Elements>
 void put_structures_of_fit(const Parameters& parameters, Elements&& elements,
                            const std::vector<Fitted_structure_3<double>>& structures) {
@@ -54,7 +54,7 @@ void put_structures_of_fit(const Parameters& parameters, Elements&& elements,
   for (auto&& element : elements) put_structure_of_fit(parameters, element, structures[i++]);
 }
 
-/// Fills the maps `v:NAME` of a surface mesh with all that is known of its vertices.
+/// Fills the maps `v:NAME` of a surface mesh with all attributes of its vertices.
 template <class Mesh, class Parameters>
 void fill_maps_of_fit(Mesh& mesh, const Parameters& parameters,
                       const std::vector<Fitted_structure_3<double>>& structures) {
@@ -72,11 +72,11 @@ void fill_maps_of_fit(Mesh& mesh, const Parameters& parameters,
 
 namespace equiaffine {
 
-/// Puts the local structure of the surface that the vertices of a mesh are samples of, as `fitted_structures` finds it,
-/// into the property maps that are named parameters, as annotate() with a function does, and estimates of their errors.
-/// `vertex_structure_map` has a Fitted_structure_3<double>; no map is read. With AGAINST_GRADIENT normals are on the
-/// other side. The named parameters are those of fitted_structures(), the maps of annotate(), and maps of the estimated
-/// errors:
+/// Writes the local structure of the surface sampled by the vertices of a mesh, see `fitted_structures`, and its
+/// estimated errors to property maps. The maps are named parameters, as in annotate(). `vertex_structure_map` takes
+/// a Fitted_structure_3<double>; no map is read. AGAINST_GRADIENT flips the normals.
+///
+/// The named parameters are those of fitted_structures(), the maps of annotate(), and maps of the estimated errors:
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
@@ -90,10 +90,10 @@ namespace equiaffine {
 /// | `vertex_Gaussian_curvature_error_map` | map of numbers | none | of K_e |
 /// | `vertex_unit_normal_error_map` | map of numbers | none | of n, in degrees |
 ///
-/// A CGAL::Surface_mesh without such a map gets the maps that annotate() gives it, and one for each estimate that
-/// doc/program.md lists: `v:NAME_error`, and `v:NAME_noise` and `v:NAME_detail` for the affine curvatures.
+/// If no map to fill is given, a CGAL::Surface_mesh gets the maps of annotate(), and one for each estimate listed in
+/// doc/program.md: `v:NAME_error`, and `v:NAME_noise` and `v:NAME_detail` for the affine curvatures.
 ///
-/// Named parameters come in one chain or several, equiaffine's and CGAL's.
+/// Named parameters of equiaffine and of CGAL can be in one chain or several.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Parameter_chain... Parameters>
 void annotate_by_fit(Graph& mesh, const Fit_options& options, Orientation_of_level_set orientation,
                      const Parameters&... given) {
@@ -111,8 +111,8 @@ void annotate_by_fit(Graph& mesh, const Fit_options& options = {}, const Paramet
   annotate_by_fit<ConcurrencyTag>(mesh, options, Orientation_of_level_set::ALONG_GRADIENT, given...);
 }
 
-/// The same for one vertex, whose structure is returned, too; see fitted_structure(). A Surface_mesh gets no maps of
-/// its own here.
+/// The same for one vertex; also returns its structure, see fitted_structure(). A Surface_mesh gets no maps of its
+/// own here.
 template <class Vertex, Face_graph Graph, internal::Parameter_chain... Parameters>
 Fitted_structure_3<double> annotate_by_fit(const Vertex& v, const Graph& mesh, const Fit_options& options,
                                            Orientation_of_level_set orientation, const Parameters&... given) {
@@ -130,7 +130,7 @@ Fitted_structure_3<double> annotate_by_fit(const Vertex& v, const Graph& mesh, c
   return annotate_by_fit(v, mesh, options, Orientation_of_level_set::ALONG_GRADIENT, given...);
 }
 
-/// The same for points without faces, the elements of a range: see `fitted_structures`.
+/// The same for points without faces, the elements of a range, see `fitted_structures`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::forward_range Points,
           internal::Parameter_chain... Parameters>
 void annotate_by_fit(Points&& points, const Fit_options& options, Orientation_of_level_set orientation,
@@ -150,7 +150,7 @@ void annotate_by_fit(Points&& points, const Fit_options& options = {},
   annotate_by_fit<ConcurrencyTag>(points, options, Orientation_of_level_set::ALONG_GRADIENT, given...);
 }
 
-/// The same as with `vertex_structure_map`.
+/// The same with `map` as `vertex_structure_map`.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, internal::Property_map Structure_map,
           internal::Parameter_chain... Parameters>
 void annotate_by_fit(const Graph& mesh, Structure_map map, const Fit_options& options = {},
@@ -166,7 +166,7 @@ void annotate_by_fit(Points&& points, Structure_map map, const Fit_options& opti
 }
 
 /// \cond
-// A call that is mistaken, see base/named_parameters.h.
+// Overload for invalid calls, see base/named_parameters.h.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Elements, class First, class... Others>
 void annotate_by_fit(const Elements&, const First&, const Others&...) requires(
     (Face_graph<Elements> || std::ranges::input_range<Elements>)&&!(std::convertible_to<First, Fit_options> ||

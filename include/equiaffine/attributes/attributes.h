@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The local structure at points of level sets, as structures or as columns of numbers by name.
+// The local structure at points of level sets, as structures or as named columns of numbers.
 #ifndef EQUIAFFINE_ATTRIBUTES_ATTRIBUTES_H
 #define EQUIAFFINE_ATTRIBUTES_ATTRIBUTES_H
 
@@ -28,12 +28,12 @@
 #include <utility>
 #include <vector>
 
-// Columns of attributes are computed block by block: f is expanded at the points of a block, the attributes of all of
-// them are computed in packs, and those of points that are not regular again, one by one.
+// Columns of attributes are computed block by block: f is expanded at the points of a block, and their attributes
+// are computed in packs. Points that are not regular are computed again one by one.
 namespace equiaffine::internal {
 
-/// The expansions of f at a block of points, and the errors of its second derivatives there. Point i is lane
-/// i % Lanes::size of pack i / Lanes::size; copies of the last point fill up the last pack.
+/// The expansions of f at a block of points, and the errors of its second derivatives. Point i is lane i %
+/// Lanes::size of pack i / Lanes::size; copies of the last point fill up the last pack.
 template <class Pack_of_numbers>
 struct Expanded_block_of {
   using Lanes = Pack_of_numbers;
@@ -42,7 +42,7 @@ struct Expanded_block_of {
   std::size_t number_of_points;
   std::array<Lanes, packs> x, y, z, roundings;
   std::array<Jet_3<Lanes>, packs> jets;
-  bool has_roundings; ///< if false, second derivatives are exact up to roundings of their own size
+  bool has_roundings; ///< if false, second derivatives are exact up to rounding of their own size
 
   std::size_t number_of_packs() const { return (number_of_points + Lanes::size - 1) / Lanes::size; }
 
@@ -70,11 +70,11 @@ private:
   }
 };
 
-/// Translation units for different processors have different packs, and so do the types of their blocks.
+/// The alias differs between translation units for different processors, which have different packs.
 using Expanded_block = Expanded_block_of<Pack<double>>;
 
-/// Sets the jets by the model's own taylor_packs(). Returns false if the model has no such member, or if the function
-/// branches differently in the lanes of a pack.
+/// Sets the jets with the model's own taylor_packs(). Returns false if the model has no such member, or if the
+/// function branches differently in the lanes of a pack.
 template <class Traits>
 bool expand_in_packs(const Traits& traits, Expanded_block& block) {
   if constexpr (PackImplicitFunctionTraits_3<Traits>) {
@@ -121,13 +121,13 @@ Expanded_block expand_block(const Traits& traits, std::span<const typename Trait
   return block;
 }
 
-/// The rows of the result that belong to the points of one block.
+/// The rows of the result for the points of one block.
 struct Attribute_rows {
   const std::vector<Attribute>& attributes;
   std::vector<Vertex_attributes::Column>& columns; ///< one per attribute
   std::vector<Point_status>& statuses;
   std::span<const double> areas;        ///< of vertices of a mesh, or empty
-  std::span<const std::size_t> numbers; ///< of the points of the block, which are also those of their rows
+  std::span<const std::size_t> numbers; ///< indices of the points of the block, and of their rows
 
   double& number(std::size_t row, std::size_t column) const { return columns[column].values[numbers[row]]; }
   Point_status& status(std::size_t row) const { return statuses[numbers[row]]; }
@@ -141,8 +141,7 @@ struct Attribute_rows {
   }
 };
 
-/// Fills the rows of the points of pack n: of regular points all at once, of the others one by one, which also finds
-/// their status.
+/// Fills the rows of pack n: regular points all at once, the others one by one, which also determines their status.
 inline void measure_pack(const Expanded_block& block, std::size_t n, const Attribute_rows& rows) {
   using Lanes = Expanded_block::Lanes;
   const auto pack = regular_structure(block.jets[n], block.points_of_pack(n), block.rounding_of_pack(n));
@@ -160,7 +159,7 @@ inline void measure_pack(const Expanded_block& block, std::size_t n, const Attri
   }
 }
 
-/// Fills the columns of norms of gradients, if any are selected.
+/// Fills the selected columns of norms of gradients.
 template <class Traits>
 void measure_gradients(const Traits& traits, std::span<const typename Traits::Point_3> points,
                        const Attribute_rows& rows) {
@@ -174,13 +173,13 @@ void measure_gradients(const Traits& traits, std::span<const typename Traits::Po
   }
 }
 
-/// The work of compute_attributes().
+/// Implements compute_attributes().
 template <class ConcurrencyTag, class Traits>
 Vertex_attributes compute_columns(const Traits& traits, std::span<const typename Traits::Point_3> points,
                                   const Attribute_selection& selection, const Sampled_vertices& sampled) {
   for (const std::size_t size : {sampled.status.size(), sampled.areas.size()})
     check_argument(size == 0 || size == points.size(),
-                   "attributes are given statuses or areas of another number of points: give one per point, or none");
+                   "the number of statuses or areas does not match the number of points: give one per point, or none");
   Vertex_attributes result;
   if (selection.columns.empty() && !selection.has_status) return result;
   for (const Attribute& attribute : selection.columns) {
@@ -213,12 +212,9 @@ Vertex_attributes compute_columns(const Traits& traits, std::span<const typename
 
 namespace equiaffine {
 
-/// Returns the local structure of the level set of f through p. `sampled_status` is the status that a sampler gave p: a
-/// point that is UNCONVERGED stays so, with the numbers that exist, unless it is OUTSIDE.
-///
-/// | named parameter | type | default | meaning |
-/// |---|---|---|---|
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+/// Returns the local structure of the level set of f through p. `sampled_status` is the status of p according to a
+/// sampler: an UNCONVERGED point keeps that status, with the numbers that exist, unless it is OUTSIDE. The named
+/// parameters `geom_traits` and `verbose` are accepted for compatibility with CGAL, and ignored.
 template <ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
 Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, const typename Traits::Point_3& p,
                                                           Point_status sampled_status = Point_status::REGULAR,
@@ -231,19 +227,16 @@ Local_structure_3<typename Traits::FT> local_structure_at(const Traits& traits, 
   return structure;
 }
 
-/// Computes the selected attributes of points, one column of doubles per scalar. This takes one Taylor expansion of
-/// order 4 per point, and one of order 5, or up to 40 more of order 4, if the norm of a gradient is selected.
-/// CGAL::Sequential_tag and CGAL::Parallel_tag give the same numbers, bit for bit. Points are computed in packs, and
-/// the numbers are those of local_structure_at: bit for bit if the compiler rounds each product and each sum
+/// Computes the selected attributes of points, one column of doubles per scalar. Takes one Taylor expansion of order
+/// 4 per point, and one of order 5, or up to 40 more of order 4, if the norm of a gradient is selected.
+/// CGAL::Sequential_tag and CGAL::Parallel_tag give the same numbers, bit for bit. Points are computed in packs. The
+/// numbers equal those of local_structure_at bit for bit if the compiler rounds each product and each sum
 /// (-ffp-contract=off), else to within rounding.
 ///
-/// `sampled` has statuses, as in local_structure_at, and the areas for `vertex_area` and `affine_area`, which are NaN
-/// without them. Either is empty or has one entry per point.
-/// \throw std::invalid_argument otherwise
-///
-/// | named parameter | type | default | meaning |
-/// |---|---|---|---|
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+/// `sampled` contains statuses, as in local_structure_at, and the areas for `vertex_area` and `affine_area`, which
+/// are NaN without them. Each is empty or has one entry per point. The named parameters `geom_traits` and `verbose`
+/// are accepted for compatibility with CGAL, and ignored.
+/// \throw std::invalid_argument if their number does not match that of the points
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           internal::Parameter_chain... Parameters>
 Vertex_attributes compute_attributes(const Traits& traits, std::span<const typename Traits::Point_3> points,
@@ -255,7 +248,7 @@ Vertex_attributes compute_attributes(const Traits& traits, std::span<const typen
   return internal::compute_columns<ConcurrencyTag>(traits, points, selection, sampled);
 }
 
-/// The same for the vertices of a mesh, whose areas are those of its triangles.
+/// The same for the vertices of a mesh, with the areas of its triangles.
 /// \throw Input_error if an attribute needs triangles, and there are none
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Kernel,
           internal::Parameter_chain... Parameters>

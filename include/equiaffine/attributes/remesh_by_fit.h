@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fits a triangle mesh, remeshes it, and moves its vertices onto the fit, at a scale that suits its shape.
+// Fits a triangle mesh, remeshes it, and moves its vertices onto the fit, at a scale that suits the shape.
 #ifndef EQUIAFFINE_ATTRIBUTES_REMESH_BY_FIT_H
 #define EQUIAFFINE_ATTRIBUTES_REMESH_BY_FIT_H
 
@@ -36,8 +36,8 @@ namespace equiaffine {
 /// The result of remesh_by_fit().
 template <class Kernel>
 struct Remesh_by_fit {
-  Fitted_function_traits_3<Kernel> fit; ///< the fit, with values up to a 25th of the size of the mesh over the surface
-  Fit_remesh_report report;             ///< what became of the vertices
+  Fitted_function_traits_3<Kernel> fit; ///< the fit, with values up to a 25th of the size of the mesh above the surface
+  Fit_remesh_report report;             ///< outcomes of the vertices
 };
 
 } // namespace equiaffine
@@ -48,17 +48,17 @@ namespace equiaffine::internal {
 template <class Mesh, class Parameters>
 using Kernel_of_vertices = typename CGAL::Kernel_traits<Point_of_vertices<Mesh, Parameters>>::Kernel;
 
-/// When a remesh tries smaller scales of a fit, and when it takes them.
+/// When remeshing tries smaller scales of a fit, and when it accepts them.
 struct Remesh_thresholds {
-  static constexpr double enough = 0.05;       ///< a part of the vertices that may be beside the fit
-  static constexpr double least_gain = 1. / 3; ///< the part of these vertices that must get onto the fit
-  static constexpr double greatest_loss = 0.1; ///< the part of the data at which a number may become unknown
-  static constexpr double known = 0.5;         ///< the greatest error of a number that is known, as a part of its size
+  static constexpr double enough = 0.05;       ///< fraction of the vertices that may be off the fit
+  static constexpr double least_gain = 1. / 3; ///< fraction of these vertices that must get onto the fit
+  static constexpr double greatest_loss = 0.1; ///< fraction of the data at which a number may become unknown
+  static constexpr double known = 0.5;         ///< largest relative error of a number that counts as known
   static constexpr std::size_t most_data = 1000; ///< at which numbers are computed
   static constexpr int most_tries = 4;
 };
 
-/// The part of the vertices of a remesh that are neither on the fit nor on creases.
+/// The fraction of the vertices of a remesh that are neither on the fit nor on creases.
 inline double part_beside_fit(const Whole_motion_3& motion) {
   std::size_t kept = 0;
   for (std::size_t v = 0; v < motion.points().size(); ++v)
@@ -66,8 +66,8 @@ inline double part_beside_fit(const Whole_motion_3& motion) {
   return 1 - double(kept) / double(motion.points().size());
 }
 
-/// The parts of some of the data at which a fit knows the affine area density, of order 2, and the affine Gaussian
-/// curvature, of order 4.
+/// The fractions of a sample of the data at which a fit knows the affine area density, of order 2, and the affine
+/// Gaussian curvature, of order 4.
 template <class Kernel>
 std::array<double, 2> parts_known(const Fitted_function_traits_3<Kernel>& fit,
                                   const std::vector<typename Kernel::Point_3>& data) {
@@ -84,10 +84,10 @@ std::array<double, 2> parts_known(const Fitted_function_traits_3<Kernel>& fit,
   return parts;
 }
 
-/// Moves a remesh to a fit. If the data choose its scale, and many vertices would be beside the fit, that scale is too
-/// large for the shape: smaller ones are tried while they leave fewer vertices beside the fit and numbers known at
-/// about as many data. `fit` becomes the fit at such a scale if it leaves a third fewer. `refit(options)` makes a fit,
-/// or throws Input_error.
+/// Moves a remesh to a fit. If the scale was chosen from the data and many vertices would be off the fit, the scale
+/// is too large for the shape. Smaller scales are tried while they leave fewer vertices off the fit and numbers stay
+/// known at about as many data. `fit` is replaced by a fit that leaves a third fewer vertices off it.
+/// `refit(options)` makes a fit, or throws Input_error.
 template <class ConcurrencyTag, class Kernel, class Refit>
 Whole_motion_3 motion_to_best_fit(Whole_remesh_3<Kernel>& remesh, Fitted_function_traits_3<Kernel>& fit,
                                   Fit_options options, const std::vector<typename Kernel::Point_3>& data,
@@ -134,8 +134,8 @@ Fit_remesh_report remesh_on_best_fit(Mesh& mesh, Fitted_function_traits_3<Kernel
   return replace_by_moved<ConcurrencyTag>(mesh, remesh, motion, parameters);
 }
 
-/// The height over the data up to which a remesh needs the values of a fit: a 25th of the diagonal of their box, which
-/// is widened by a tenth of its longest side, or by more than any coordinate if all points are equal.
+/// The height above the data up to which remeshing needs the values of a fit: a 25th of the diagonal of their box,
+/// widened by a tenth of its longest side, or by more than any coordinate if all points are equal.
 template <class Point>
 double height_of_remesh(const std::vector<Point>& data) {
   CGAL::Bbox_3 box;
@@ -152,28 +152,29 @@ double height_of_remesh(const std::vector<Point>& data) {
 
 namespace equiaffine {
 
-/// Fits polynomials to the vertices of a triangle mesh, as Fitted_function_traits_3 does, and remeshes the mesh on the
-/// fit by remesh_on_fit(). It returns the fit, too. That is what the program makes of `equiaffine mesh --fit FILE`.
+/// Fits polynomials to the vertices of a triangle mesh, as Fitted_function_traits_3 does, and remeshes the mesh on
+/// the fit with remesh_on_fit(). Also returns the fit. The result is that of `equiaffine mesh --fit FILE`.
 ///
-/// If the data choose the scale, it may be too large for parts of the shape: then more than 5 % of the vertices are
-/// beside the fit. Up to four scales, each smaller by the square root of 2, are tried while they leave fewer vertices
-/// beside the fit, and while the affine area density and the affine Gaussian curvature stay known to 50 % at about as
-/// many of the data, with a loss of 10 % of them at most. The fit at a smaller scale is taken if it leaves a third
-/// fewer vertices beside it.
+/// A scale chosen from the data may be too large for parts of the shape: then more than 5 % of the vertices are off
+/// the fit. Up to four scales, each smaller by the square root of 2, are tried while they leave fewer vertices off
+/// the fit, and while the affine area density and the affine Gaussian curvature stay known to 50 % at about as many
+/// of the data, with a loss of at most 10 % of them. A fit at a smaller scale is used if it leaves a third fewer
+/// vertices off it.
 ///
-/// The fit has creases by the feature angle of `fit_options`, and the remesh keeps edges by that of `remesh_options`:
-/// usually both are the same.
+/// The feature angle of `fit_options` defines the creases of the fit, and that of `remesh_options` the edges that
+/// are kept; usually both are the same.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
-/// | `edge_is_constrained_map` | writable property map | none | from edges to bool: those that are kept |
+/// | `edge_is_constrained_map` | writable property map | none | from edges to bool: edges to keep |
 /// | `vertex_point_map` | writable property map | the mesh's own | from vertices to points |
-/// | `vertex_normal_map` | property map | made of the faces | from vertices to normals, which the fit reads |
+/// | `vertex_normal_map` | property map | computed from the faces | from vertices to normals, for the fit |
 /// | `vertex_outcome_map` | writable property map | none | from vertices of the result to Fit_outcome |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// `geom_traits` and `verbose` are accepted for compatibility with CGAL, and ignored.
 ///
 /// Takes the time of remesh_on_fit(), and of up to five fits. CGAL::Parallel_tag gives the same numbers.
-/// \throw Input_error and std::invalid_argument as fitted_structures() and remesh_on_fit() do. The mesh is as it was
+/// \throw Input_error and std::invalid_argument as fitted_structures() and remesh_on_fit() do. The mesh is unchanged
 /// then.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, internal::Parameter_chain... Parameters>
 Remesh_by_fit<internal::Kernel_of_vertices<Mesh, internal::Joined_parameters<Parameters...>>>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Input_error, the exception for a text or a file that cannot be used, and what makes its message safe for a terminal.
+// Input_error, the exception for unusable texts and files, and functions that make its message safe for a terminal.
 #ifndef EQUIAFFINE_BASE_INPUT_ERROR_H
 #define EQUIAFFINE_BASE_INPUT_ERROR_H
 
@@ -15,13 +15,13 @@
 
 namespace equiaffine::internal {
 
-/// A character and the number of its bytes; no bytes if there is no valid UTF-8.
+/// A character and its length in bytes. The length is 0 if the bytes are not valid UTF-8.
 struct Utf8_character {
   char32_t code = 0;
   std::size_t bytes = 0;
 };
 
-/// The bytes of a character whose first byte is `lead`, or 0 if none starts with it.
+/// The length in bytes of a character whose first byte is `lead`, or 0 if no character starts with this byte.
 inline std::size_t number_of_bytes(unsigned lead) {
   if (lead < 0x80) return 1;
   if (lead >= 0xC2 && lead < 0xE0) return 2;
@@ -45,7 +45,7 @@ inline Utf8_character first_character(std::string_view text) {
   return code < least[bytes] || code > 0x10FFFF || is_surrogate ? Utf8_character{} : Utf8_character{code, bytes};
 }
 
-/// Whether a terminal shows the character and stays as it is.
+/// Whether a terminal displays the character without side effects.
 inline bool is_harmless(char32_t code) {
   const bool is_control = code < 0x20 || (code >= 0x7F && code < 0xA0);
   const bool breaks_lines = code == 0x2028 || code == 0x2029;
@@ -59,8 +59,9 @@ inline bool is_harmless(char32_t code) {
 namespace equiaffine {
 
 /// \cond for internal use
-/// The text as it may go to a terminal, in one line. Line ends and tabs become spaces. Bytes of control characters, of
-/// characters that change the direction of writing, and bytes that are not UTF-8 become `\x` and two digits.
+/// Returns the text as one line that is safe to print on a terminal. Line ends and tabs become spaces. Control
+/// characters, characters that change the writing direction, and bytes that are not UTF-8 become `\x` and two digits
+/// per byte.
 inline std::string printable(std::string_view text) {
   constexpr const char* digits = "0123456789abcdef";
   std::string result;
@@ -79,8 +80,8 @@ inline std::string printable(std::string_view text) {
   return result;
 }
 
-/// Throws std::invalid_argument unless an argument is valid, in every build: for sizes, boxes and lengths that the
-/// caller may have from a user. `sentence` says what is wrong and what to do.
+/// Throws std::invalid_argument, in every build, if `is_valid` is false. Used for sizes, boxes and lengths that may
+/// come from a user. `sentence` states what is wrong and what to do.
 inline void check_argument(bool is_valid, const char* sentence) {
   if (!is_valid) throw std::invalid_argument(sentence);
 }
@@ -88,36 +89,34 @@ inline void check_argument(bool is_valid, const char* sentence) {
 
 } // namespace equiaffine
 
-// A program catches what the shared library throws.
+// Programs must be able to catch what the shared library throws.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 namespace equiaffine {
 
 /// The exception for a text or a file that cannot be used.
-/// `what()` is one line that says what is wrong, where, and what to do about it. What it quotes of the text or file is
-/// `printable`.
-/// `excerpt()` is empty or shows the place: the offending text and, below it, a caret.
-/// `field()` is empty or the member of an options struct that is wrong, such as "min_overlap" or "fit.scale": then
-/// `what()` is the field, a colon and the `sentence()`, so that a front end can put its own name of the option before
-/// it.
+/// `what()` is one line: what is wrong, where, and what to do. Quoted parts of the text or file are `printable`.
+/// `excerpt()` is the offending text with a caret below it, or empty.
+/// `field()` is the invalid member of an options struct, such as "min_overlap" or "fit.scale", or empty. If it is set,
+/// `what()` is the field, a colon and the `sentence()`, so that a front end can substitute its own name of the option.
 class Input_error : public std::runtime_error {
 public:
-  /// Makes an error of two texts.
+  /// Creates an error from its message and excerpt.
   explicit Input_error(const std::string& what, std::string excerpt = {})
       : std::runtime_error(printable(what)), excerpt_(std::move(excerpt)) {}
 
-  /// Makes an error about a member of an options struct.
+  /// Creates an error about a member of an options struct.
   static Input_error about(const std::string& field, const std::string& sentence) {
     Input_error error(field + ": " + sentence);
     error.field_ = field;
     return error;
   }
 
-  const std::string& excerpt() const { return excerpt_; } ///< the place in the text, or nothing
-  const std::string& field() const { return field_; }     ///< the member of an options struct, or nothing
+  const std::string& excerpt() const { return excerpt_; } ///< the offending text with a caret, or empty
+  const std::string& field() const { return field_; }     ///< the invalid member of an options struct, or empty
 
-  /// What is wrong and what to do, without the field.
+  /// The message without the field.
   std::string sentence() const { return field_.empty() ? what() : std::string(what()).substr(field_.size() + 2); }
 
 private:
@@ -131,7 +130,7 @@ private:
 
 namespace equiaffine::internal {
 
-/// Throws unless the number in a field of an options struct is valid: "field: '1.5' is not between 0 and 1; advice".
+/// Throws if a number in a field of an options struct is invalid: "field: '1.5' is not between 0 and 1; advice".
 inline void check_field(bool is_valid, const std::string& field, double number, const std::string& problem,
                         const std::string& advice) {
   if (is_valid) return;
@@ -140,7 +139,7 @@ inline void check_field(bool is_valid, const std::string& field, double number, 
   throw Input_error::about(field, "'" + std::string(digits.data(), end) + "' " + problem + "; " + advice);
 }
 
-/// Checks options that are a member of other options: the field of an error is "member.field".
+/// Checks options that are a member of other options. The field of an error becomes "member.field".
 template <class Options>
 void check_member(const std::string& member, const Options& options) {
   try {

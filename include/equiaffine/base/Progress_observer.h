@@ -12,13 +12,13 @@
 #include <functional>
 #include <utility>
 
-// A program and the shared library that it uses must have the same variable of each thread.
+// A program and the shared library must share each thread's variable.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 namespace equiaffine {
 
-/// Looks at long computations of the library in the thread that makes it, for as long as it lives, and may end them.
+/// Reports the progress of long computations of the current thread, and can cancel them.
 ///
 /// \code{.cpp}
 /// const equiaffine::Progress_observer observer([&](equiaffine::Progress_observer::Stage stage) {
@@ -28,17 +28,17 @@ namespace equiaffine {
 /// const auto structures = equiaffine::fitted_structures<CGAL::Parallel_tag>(mesh);
 /// \endcode
 ///
-/// A computation is made of stages, most of them short: loops over vertices, layers of a grid, or candidates for a map.
-/// The function is called in the observing thread, at most once in `interval`, while that thread works on a stage. If
-/// it throws, the work of all threads on the computation ends within one step of each, and the exception leaves the
-/// function of the library that was called. Results do not depend on an observer. What CGAL computes for the library,
-/// as most of a Delaunay mesh, is seen where it asks the library for points.
+/// A computation consists of stages, most of them short: loops over vertices, layers of a grid, or candidates for a
+/// map. While the observing thread works on a stage, it calls the function at most once per `interval`. If the function
+/// throws, all threads stop after their current step, and the exception leaves the library function that was called.
+/// Results do not depend on an observer. Work inside CGAL, such as most of Delaunay meshing, is observed only when it
+/// calls back into the library.
 ///
-/// The function may call the library, which is not observed then. An observer is destroyed in the thread that made it.
-/// One observer in a thread hides those made before it until it is destroyed, in the reverse order of making.
-/// A step costs some 30 ns more while it is observed, and nothing otherwise.
+/// The function may call the library; those calls are not observed. Destroy an observer in the thread that created it.
+/// If a thread has several observers, only the newest is active; destroy them in reverse order. An observer adds about
+/// 30 ns to each step; without one there is no cost.
 class Progress_observer {
-  // The observer for which a thread works, and whether the thread has made it.
+  // The observer that a thread works for, and whether this thread created it.
   struct Of_thread {
     Progress_observer* observer = nullptr;
     bool is_owner = false;
@@ -48,20 +48,20 @@ class Progress_observer {
     return observer;
   }
 
-  // A thread that helps throws this; the owner throws the exception of the function instead.
+  // Thrown in helper threads; the owner throws the exception of the function instead.
   struct Ended {};
 
 public:
-  /// How far the current stage is. Stages count from 1; the number is 0 before the first of them.
+  /// Progress of the current stage.
   struct Stage {
-    std::size_t number; ///< of the stage
-    std::size_t done;   ///< steps of it, by all threads
-    std::size_t total;  ///< steps that it has
+    std::size_t number; ///< counted from 1; 0 before the first stage
+    std::size_t done;   ///< completed steps, of all threads
+    std::size_t total;  ///< steps of the stage
   };
-  using Function = std::function<void(const Stage&)>; ///< what looks
-  using Clock = std::chrono::steady_clock;            ///< what measures intervals
+  using Function = std::function<void(const Stage&)>; ///< receives the progress
+  using Clock = std::chrono::steady_clock;            ///< measures the intervals
 
-  /// Calls `function` from now on.
+  /// Calls `function` at most once per `interval`.
   explicit Progress_observer(Function function, Clock::duration interval = std::chrono::milliseconds(50))
       : function_(std::move(function)), interval_(std::min<Clock::duration>(interval, std::chrono::hours(1 << 16))),
         next_(Clock::now() + interval_), hidden_(std::exchange(of_thread(), {this, true})) {}
@@ -69,11 +69,11 @@ public:
   Progress_observer(const Progress_observer&) = delete;
   Progress_observer& operator=(const Progress_observer&) = delete;
 
-  /// A loop of which the observer of this thread, if there is one, sees how far it is. The outermost loop is a stage;
-  /// loops within it, also those in other threads, only end when the work ends.
+  /// A loop whose progress is reported to the observer of this thread, if any. The outermost loop is a stage. Nested
+  /// loops, including those in other threads, are not reported but can be canceled.
   class Loop {
   public:
-    /// Begins a loop of `size` steps.
+    /// Starts a loop of `size` steps.
     explicit Loop(std::size_t size) : observer_(of_thread().observer) {
       if (!observer_ || !of_thread().is_owner || observer_->is_in_stage_) return;
       is_stage_ = observer_->is_in_stage_ = true;
@@ -87,7 +87,7 @@ public:
     Loop(const Loop&) = delete;
     Loop& operator=(const Loop&) = delete;
 
-    /// Calls f(i) for every i in [begin, end), in the thread that began the loop or in any other.
+    /// Calls f(i) for every i in [begin, end). May be called from any thread.
     template <class F>
     void run(std::size_t begin, std::size_t end, F& f) const {
       if (!observer_) {
@@ -102,8 +102,8 @@ public:
       }
     }
 
-    /// Calls `run_parts()`, which runs parts of the loop in threads and throws what one of them throws. If the observer
-    /// has ended the work, that is its exception, whichever thread saw the end first.
+    /// Calls `run_parts()`, which runs parts of the loop in threads and rethrows their exceptions. If the observer
+    /// cancelled the work, its exception is thrown, whichever thread noticed first.
     template <class Run_parts>
     void run_in_threads(const Run_parts& run_parts) const {
       try {
@@ -115,7 +115,7 @@ public:
     }
 
   private:
-    // While it lives, this thread works for the observer.
+    // Marks this thread as working for the observer during its lifetime.
     struct Work {
       explicit Work(Progress_observer* observer)
           : before(of_thread()), is_of_owner(before.observer == observer && before.is_owner) {
@@ -133,7 +133,7 @@ public:
     bool is_stage_ = false;
   };
 
-  /// Lets the observer of this thread, if there is one, look. Loops that are not the library's may call it.
+  /// Reports to the observer of this thread, if any. Call it in loops that are not the library's.
   static void step() {
     if (const auto [observer, is_owner] = of_thread(); observer) observer->pass(is_owner);
   }

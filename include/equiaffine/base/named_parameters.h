@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Named parameters in the style of CGAL, for property maps and data:
-// `parameters::vertex_point_map(map).comments(lines)`. internal/named_parameter_list.h has the list. The types are our
-// own, since CGAL's list of names is closed and differs between its versions 5 and 6.
+// `parameters::vertex_point_map(map).comments(lines)`. internal/named_parameter_list.h lists them. They have their own
+// types because CGAL's list of names is closed and differs between its versions 5 and 6.
 #ifndef EQUIAFFINE_BASE_NAMED_PARAMETERS_H
 #define EQUIAFFINE_BASE_NAMED_PARAMETERS_H
 
@@ -18,17 +18,17 @@
 
 namespace equiaffine::internal {
 
-/// The value of a named parameter that counts something. \throw std::invalid_argument if it is negative
+/// Converts the value of a named parameter that is a count. \throw std::invalid_argument if it is negative
 template <class Count, class Number>
 Count count_of(const Number& number) {
-  static_assert(std::is_integral_v<Number>, "this named parameter counts something: give it a whole number");
+  static_assert(std::is_integral_v<Number>, "this named parameter is a count: pass an integer");
   if constexpr (std::is_signed_v<Number>)
-    check_argument(number >= 0, "a named parameter that counts something, such as number_of_maps, is negative: give it "
-                                "a positive number");
+    check_argument(number >= 0, "a named parameter that is a count, such as number_of_maps, is negative: pass a number "
+                                "that is at least 0");
   return static_cast<Count>(number);
 }
 
-/// Tags: the types by which a function asks for its parameters.
+/// Tags that identify the parameters.
 struct Feature_curves_tag {};
 struct Vertex_point_tag {};
 struct Point_tag {};
@@ -52,7 +52,7 @@ struct Vertex_conormal_tag {};
 struct Vertex_pick_invariant_tag {};
 struct Vertex_affine_metric_tag {};
 struct Vertex_affine_area_density_tag {};
-/// Tag of the map with the estimated errors of the values that `Tag` stands for.
+/// Tag of the map of estimated errors of the values with tag `Tag`.
 template <class Tag>
 struct Error_tag {};
 using Vertex_affine_mean_curvature_error_tag = Error_tag<Vertex_affine_mean_curvature_tag>;
@@ -76,7 +76,7 @@ Named_parameters<Value, Tag, Base> add_parameter(const Value& value, const Base&
   return {value, base};
 }
 
-/// One parameter and those given before it.
+/// A parameter and those given before it.
 template <class Value, class Tag, class Base>
 struct Named_parameters {
   Value value;
@@ -90,14 +90,14 @@ Default get_parameter(const No_parameters&, const Default& otherwise) {
   return otherwise;
 }
 
-/// The parameter with the given tag, the last one given if there are several.
+/// The parameter with the given tag, or `otherwise`. If there are several, the last one counts.
 template <class Tag, class Default, class Value, class OtherTag, class Base>
 Default get_parameter(const Named_parameters<Value, OtherTag, Base>& parameters, const Default& otherwise) {
   if constexpr (std::is_same_v<Tag, OtherTag>) return parameters.value;
   else return get_parameter<Tag>(parameters.base, otherwise);
 }
 
-/// The value of a parameter whose type the caller chooses. Precondition: it is given.
+/// The value of a parameter of any type. Precondition: it is given.
 template <class Tag, class Value, class OtherTag, class Base>
 const auto& given_parameter(const Named_parameters<Value, OtherTag, Base>& parameters) {
   if constexpr (std::is_same_v<Tag, OtherTag>) return parameters.value;
@@ -111,11 +111,11 @@ template <class Tag, class Value, class OtherTag, class Base>
 inline constexpr bool has_parameter<Tag, Named_parameters<Value, OtherTag, Base>> =
     std::is_same_v<Tag, OtherTag> || has_parameter<Tag, Base>;
 
-/// The compiler's message shows the tag of the unknown parameter as `Given`.
+/// The compiler's message shows the tag of the unsupported parameter as `Given`.
 template <class Given, class... Known>
 constexpr void check_parameter() {
   static_assert((std::is_same_v<Given, Known> || ...),
-                "this function does not know one of the named parameters that it is given");
+                "this function does not support one of the given named parameters: see its table of parameters");
 }
 
 template <class... Known>
@@ -127,18 +127,18 @@ constexpr void check_each_parameter(const Named_parameters<Value, Tag, Base>*) {
   check_each_parameter<Known...>(static_cast<const Base*>(nullptr));
 }
 
-/// Every function with named parameters begins with this call, which does not compile when `Parameters` has one that is
-/// not among the tags `Known`.
+/// Fails to compile if `Parameters` contains a tag that is not among `Known`. Called first by every function with named
+/// parameters.
 template <class Parameters, class... Known>
 constexpr void check_parameters() {
   check_each_parameter<Known...>(static_cast<const Parameters*>(nullptr));
 }
 
-/// The tag of ours that stands for a parameter of CGAL with the same meaning.
+/// Our tag for the CGAL parameter with the same meaning.
 template <class Cgal_tag>
 struct Tag_for {
   static_assert(!std::is_same_v<Cgal_tag, Cgal_tag>,
-                "equiaffine does not know one of the named parameters of CGAL that it is given");
+                "equiaffine does not support one of the given named parameters of CGAL");
 };
 
 #define EQUIAFFINE_TAG_FOR(CGAL_TAG, TAG)                                                                              \
@@ -170,13 +170,13 @@ Named_parameters<Value, Tag, Base> appended(const No_parameters&, const Named_pa
   return given;
 }
 
-/// The chain followed by parameters of ours, in their order.
+/// Appends our parameters to the chain, in their order.
 template <class Chain, class Value, class Tag, class Base>
 auto appended(const Chain& chain, const Named_parameters<Value, Tag, Base>& given) {
   return add_parameter<Tag>(given.value, appended(chain, given.base));
 }
 
-/// The chain followed by parameters of CGAL, in their order.
+/// Appends CGAL's parameters to the chain, in their order.
 template <class Chain>
 Chain appended(const Chain& chain, const CGAL::internal_np::No_property&) {
   return chain;
@@ -202,24 +202,24 @@ inline constexpr bool is_parameter_chain<CGAL::Named_function_parameters<Value, 
 template <class T>
 concept Parameter_chain = is_parameter_chain<T>;
 
-/// Does not compile unless all arguments are named parameters. A public function has an overload for what it does not
-/// take, whose body is a call of such an explanation: the first line of the compiler says then what is missing, and not
-/// which candidates there are.
+/// Fails to compile unless all arguments are named parameters. Public functions have a catch-all overload that calls
+/// this, so that the first compiler error names the mistake instead of listing candidates.
 template <class... Arguments>
 constexpr void explain_parameters() {
   static_assert((Parameter_chain<Arguments> && ...),
-                "an argument is no named parameter: write parameters::NAME(value), of equiaffine or of CGAL");
+                "an argument is not a named parameter: write equiaffine::parameters::NAME(value) or "
+                "CGAL::parameters::NAME(value)");
 }
 
-/// Does not compile: a function whose options are a struct is given something else in their place.
+/// Fails to compile: an argument other than the options struct was passed in its place.
 template <class Given>
 constexpr void explain_options() {
   static_assert(!std::is_same_v<Given, Given>,
-                "the options of this function are a struct, and named parameters follow it: write {} for the defaults");
+                "this function takes a struct of options before its named parameters: write {} for the defaults");
 }
 
-/// All named parameters of a call in one chain, those of CGAL under the tags of ours. Of two with the same name the
-/// last one counts.
+/// Joins all named parameters of a call into one chain, with CGAL's parameters under our tags. If a name occurs twice,
+/// the last one counts.
 template <Parameter_chain Chain = No_parameters>
 auto joined_parameters(const Chain& chain = {}) {
   return appended(No_parameters(), chain);
@@ -237,11 +237,11 @@ using Joined_parameters = decltype(joined_parameters(std::declval<const Given&>(
 
 namespace equiaffine::parameters {
 
-/// Every parameter has its default.
+/// No parameters: every one has its default.
 inline internal::No_parameters default_values() { return {}; }
 
-/// Several chains of named parameters, of equiaffine and of CGAL, as one chain, for functions that take a chain for
-/// each of two surfaces. Of two parameters with the same name the last one counts.
+/// Joins several chains of named parameters, of equiaffine or of CGAL, into one, for functions that take one chain per
+/// surface. If a name occurs twice, the last one counts.
 template <internal::Parameter_chain... Chains>
 internal::Joined_parameters<Chains...> joined(const Chains&... chains) {
   return internal::joined_parameters(chains...);

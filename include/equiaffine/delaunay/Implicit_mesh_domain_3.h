@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The part of a clip domain where a function is negative, for CGAL's 3D mesh generation.
+// The part of a clip domain where a function is negative, for CGAL's 3D Mesh Generation.
 #ifndef EQUIAFFINE_DELAUNAY_IMPLICIT_MESH_DOMAIN_3_H
 #define EQUIAFFINE_DELAUNAY_IMPLICIT_MESH_DOMAIN_3_H
 
@@ -33,7 +33,7 @@
 
 namespace equiaffine::internal {
 
-/// The optional value that CGAL's mesher takes: the standard library's since CGAL 6, Boost's before.
+/// The optional type of CGAL's mesher: the standard library's since CGAL 6, Boost's before.
 #if CGAL_VERSION_NR >= 1060000000
 template <class T>
 using Cgal_optional = std::optional<T>;
@@ -42,7 +42,7 @@ template <class T>
 using Cgal_optional = boost::optional<T>;
 #endif
 
-/// Calls visit(x, y, z) for points of a sphere, which a spiral about its axis spreads evenly.
+/// Calls visit(x, y, z) for points spread evenly over a sphere by a spiral around its axis.
 template <class Visit>
 void for_each_point_of_sphere(const std::array<double, 3>& center, double radius, double spacing, const Visit& visit) {
   using std::numbers::pi;
@@ -53,7 +53,7 @@ void for_each_point_of_sphere(const std::array<double, 3>& center, double radius
   }
 }
 
-/// Calls visit(x, y, z) for points of the faces of a box, the centers of squares.
+/// Calls visit(x, y, z) for points on the faces of a box, the centers of a grid of rectangles.
 template <class Visit>
 void for_each_point_of_box(const CGAL::Bbox_3& box, double spacing, const Visit& visit) {
   for (int a = 0; a < 3; ++a) {
@@ -72,16 +72,16 @@ void for_each_point_of_box(const CGAL::Bbox_3& box, double spacing, const Visit&
   }
 }
 
-/// Calls visit(x, y, z) for points of the border of a clip domain, with about `spacing` between neighbors.
+/// Calls visit(x, y, z) for points on the border of a clip domain, about `spacing` apart.
 template <class Visit>
 void for_each_border_point(const Clip_domain_3& domain, double spacing, const Visit& visit) {
   if (domain.is_ball()) for_each_point_of_sphere(domain.center(), domain.radius(), spacing, visit);
   else for_each_point_of_box(domain.bbox(), spacing, visit);
 }
 
-/// Finds where segments, rays and lines, the duals of the facets of a Delaunay triangulation, meet a surface. They are
-/// cut to the clip domain before the signs at their ends are compared, so that sheets of the surface outside of it do
-/// not matter. Const members may be called from several threads at once if those of `Traits` may.
+/// Intersects segments, rays, and lines, the duals of the facets of a Delaunay triangulation, with a surface. They
+/// are clipped to the domain before the signs at their ends are compared, so that sheets of the surface outside the
+/// domain have no effect. Const members are thread-safe if those of `Traits` are.
 template <ImplicitFunctionTraits_3 Traits>
 class Segment_oracle_3 {
 public:
@@ -91,14 +91,14 @@ public:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   /// A segment longer than `certified_length` may have two roots and no sign change. If the bounds of the function
-  /// cannot exclude that, its halves are searched, down to pieces of that length. Where there may be a pole beside a
-  /// root, pieces are a sixteenth as long.
+  /// cannot exclude that, its halves are searched, down to pieces of that length, or of a sixteenth of it where there
+  /// may be a pole next to a root.
   Segment_oracle_3(Traits traits, const Clip_domain_3& domain, double certified_length = infinity)
       : traits_(std::move(traits)), domain_(domain), certified_length_(certified_length),
         may_have_poles_(known_bounds(traits_).have_gradients &&
                         !is_bounded(first_order_bounds(traits_, domain.bbox()).value())) {}
 
-  /// A point of the surface on p + t d, first <= t <= last (which may be infinite), inside the domain.
+  /// A point of the surface on p + t d, first <= t <= last (which may be infinite), in the domain.
   std::optional<Point_3> operator()(const Point_3& p, const Vector_3& d, double first, double last) const {
     const auto clipped = domain_.clip(p, d, first, last);
     if (!clipped) return std::nullopt;
@@ -107,7 +107,7 @@ public:
     return on_segment(a, b, traits_.value(a), traits_.value(b));
   }
 
-  /// A point where p + t d, first <= t <= last, enters or leaves the domain and f is negative.
+  /// A point at which p + t d, first <= t <= last, enters or leaves the domain and f is negative.
   std::optional<Point_3> on_border(const Point_3& p, const Vector_3& d, double first, double last) const {
     const auto clipped = domain_.clip(p, d, first, last);
     if (!clipped) return std::nullopt;
@@ -133,14 +133,14 @@ private:
     if (fa == fa && fb != fb) return before_undefined(a, b, fa);
     if (fb == fb && fa != fa) return before_undefined(b, a, fb);
     const Vector_3 d = b - a;
-    if (!is_to_be_halved(a, b, d, may_have_pole && fa == fa)) return std::nullopt;
+    if (!needs_halving(a, b, d, may_have_pole && fa == fa)) return std::nullopt;
     const Point_3 middle = a + d / FT(2);
     const FT f = traits_.value(middle);
     if (const auto root = on_segment(a, middle, fa, f)) return root;
     return on_segment(middle, b, f, fb);
   }
 
-  /// A root between a, where f has the value fa, and the place on the way to b from which on f is undefined.
+  /// A root between a, where f has the value fa, and the point on the way to b beyond which f is undefined.
   std::optional<Point_3> before_undefined(Point_3 a, Point_3 b, const FT& fa) const {
     constexpr int halvings = 12;
     for (int n = 0; n < halvings; ++n) {
@@ -158,8 +158,8 @@ private:
   }
 
   /// Whether there may be roots between a and b = a + d that the signs there do not show, and the segment is longer
-  /// than pieces need to be.
-  bool is_to_be_halved(const Point_3& a, const Point_3& b, const Vector_3& d, bool may_have_pole) const {
+  /// than the required pieces.
+  bool needs_halving(const Point_3& a, const Point_3& b, const Vector_3& d, bool may_have_pole) const {
     constexpr double piece_beside_pole = 1.0 / 16; // its length / the certified length
     const double length = std::sqrt(CGAL::to_double(d.squared_length()));
     const bool is_long = length > certified_length_;
@@ -177,7 +177,7 @@ private:
     }
   }
 
-  /// Whether bounds of f exclude that it has a pole.
+  /// Whether the bounds of f exclude a pole.
   static bool is_bounded(const Interval& bounds) {
     return std::isfinite(bounds.lower()) && std::isfinite(bounds.upper());
   }
@@ -194,12 +194,13 @@ namespace equiaffine {
 
 /// A model of CGAL's MeshDomain_3: the part of a clip domain where f < 0. Its surface is the zero set of f, patch 1,
 /// and the part of the border of the clip domain where f < 0, patch 2. Use it in CGAL::make_mesh_3 in place of
-/// CGAL::Labeled_mesh_domain_3. Vertices on the surface are exact up to rounding, every component of the zero set that
-/// is closed within the clip domain gets initial points, and parts of the surface outside of the clip domain do no
-/// harm. The edges of a box, and those where the zero set meets the border, are no features: facets cut them off by as
-/// much as the criteria allow.
+/// CGAL::Labeled_mesh_domain_3. Vertices on the surface are exact up to rounding. Every component of the zero set
+/// that is closed within the clip domain gets initial points, and parts of the surface outside the clip domain have
+/// no effect. The edges of a box and the curves where the zero set meets the border are not features: facets cut them
+/// off by as much as the criteria allow.
 ///
-/// `Kernel` is the kernel of the mesher, to which the points of the function are converted. Copies share the function.
+/// `Kernel` is the kernel of the mesher, to which the points of the function are converted. Copies share the
+/// function.
 template <ImplicitFunctionTraits_3 Traits, class Kernel = CGAL::Exact_predicates_inexact_constructions_kernel>
 class Implicit_mesh_domain_3 {
   using Oracle = internal::Segment_oracle_3<Traits>;
@@ -216,24 +217,24 @@ public:
   using Has_features = CGAL::Tag_false; ///< there are no features of dimension 0 and 1
   using Subdomain_index = int;          ///< 1 for the part where f < 0
   using Surface_patch_index = int;      ///< 1 for the zero set, 2 for the border of the clip domain
-  using Index = int;                    ///< of a subdomain or a surface patch
-  /// The index of the subdomain that has a point, or nothing.
+  using Index = int;                    ///< the index of a subdomain or a surface patch
+  /// The index of the subdomain that contains a point, or nothing.
   using Subdomain = internal::Cgal_optional<Subdomain_index>;
-  /// The index of the surface patch that a query meets, or nothing.
+  /// The index of the surface patch that a query intersects, or nothing.
   using Surface_patch = internal::Cgal_optional<Surface_patch_index>;
-  /// A point, the index of the surface patch, and 2; or 0 in the last place for none.
+  /// A point, the index of its surface patch, and 2, or 0 if there is no intersection.
   using Intersection = std::tuple<Point_3, Index, int>;
 
-  /// Initial points are as dense as the radius of the options, and on dual edges longer than twice that, pairs of
-  /// intersections are looked for. \throw Input_error for bad options
+  /// The radius of the options determines the density of the initial points. Dual edges longer than twice the radius
+  /// are searched for pairs of intersections. \throw Input_error for bad options
   explicit Implicit_mesh_domain_3(const Traits& traits, const Mesh_domain_options& options = {})
       : facet_size_(radius_of(traits, options)),
         oracle_(std::make_shared<const Oracle>(traits, clip_domain(options.clip, traits.bbox()), 2 * facet_size_)) {}
 
-  /// The functor that finds the points with which the mesher begins.
+  /// The functor that computes the initial points of the mesher.
   struct Construct_initial_points {
-    /// Writes pairs of Point_3 and Index, as many as certainty and the facet size need. The number of points that the
-    /// mesher asks for is ignored.
+    /// Writes pairs of Point_3 and Index, as many as the certificate and the facet size require. Ignores the number
+    /// of points that the mesher requests.
     template <class OutputIterator>
     OutputIterator operator()(OutputIterator out, int = 0) const {
       const auto size = [this](const auto&) { return facet_size; };
@@ -248,13 +249,13 @@ public:
     }
 
     std::shared_ptr<const Oracle> oracle; ///< the function in its clip domain
-    double facet_size;                    ///< bound of the radii of surface Delaunay balls
+    double facet_size;                    ///< maximum radius of surface Delaunay balls
     bool has_border = true;               ///< whether the border of the clip domain belongs to the surface
   };
 
-  /// The functor that says in which subdomain a point lies.
+  /// The functor that returns the subdomain of a point.
   struct Is_in_domain {
-    /// 1 if f(p) < 0 in the clip domain, else nothing.
+    /// 1 if p lies in the clip domain and f(p) < 0, otherwise nothing.
     Subdomain operator()(const Point_3& p) const {
       return oracle->is_inside(to_traits(p)) ? Subdomain(subdomain_index_inside) : Subdomain();
     }
@@ -262,7 +263,7 @@ public:
     std::shared_ptr<const Oracle> oracle; ///< the function in its clip domain
   };
 
-  /// The functor that intersects a segment, a ray or a line with the surface.
+  /// The functor that intersects a segment, a ray, or a line with the surface.
   struct Construct_intersection {
     /// A point of the surface on a segment.
     Intersection operator()(const Segment_3& s) const { return find(s.source(), s.to_vector(), 0, 1); }
@@ -285,16 +286,16 @@ public:
     bool has_border = true;               ///< whether the border of the clip domain belongs to the surface
   };
 
-  /// The functor that says whether a segment, a ray or a line meets the surface.
+  /// The functor that decides whether a segment, a ray, or a line intersects the surface.
   struct Do_intersect_surface {
-    /// The index of the patch that the query meets, or nothing.
+    /// The index of the patch that the query intersects, or nothing.
     template <class Query>
     Surface_patch operator()(const Query& query) const {
       const Intersection found = intersect(query);
       return std::get<2>(found) == 0 ? Surface_patch() : Surface_patch(std::get<1>(found));
     }
 
-    Construct_intersection intersect; ///< finds a point where they meet
+    Construct_intersection intersect; ///< computes the intersection
   };
 
   Construct_initial_points construct_initial_points_object() const { return {oracle_, facet_size_}; } ///< the functor
@@ -305,7 +306,7 @@ public:
   } ///< the functor
 
   /// @{
-  /// The functors for a mesh of the zero set alone, which ends at the border of the clip domain.
+  /// The functors for a mesh of the zero set only, which ends at the border of the clip domain.
   Construct_initial_points construct_initial_points_of_zero_set_object() const { return {oracle_, facet_size_, false}; }
   Construct_intersection construct_intersection_with_zero_set_object() const { return {oracle_, false}; }
   /// @}

@@ -31,16 +31,17 @@ namespace equiaffine {
 template <class Kernel>
 struct Delaunay_surface_3 : Isosurface_3<Kernel> {
   bool is_certified = false; ///< no component of the surface was missed: there are no undecided boxes
-  /// Boxes in which a part of the surface may have been missed, since neither its absence nor its regularity could be
-  /// proved: around singular points, where the surface touches the border of the box, beside points where f is not
-  /// defined, in noise that would need too many boxes, or everywhere if the function has no bounds of its gradient.
-  /// There are also boxes where a part of the surface got no triangle, or a feature no edge, because it is too near to
-  /// others, where points of features are nearer to each other than a thousandth of the radius, where the mesh is not a
-  /// manifold, and where a triangle straddles a parabolic curve that is a feature. The whole box is one of them if
-  /// CGAL's mesher gave up, because the surface has bends much smaller than facets: some triangles are then missing,
-  /// and others do not satisfy the criteria.
+  /// Boxes in which a part of the surface may have been missed, because neither its absence nor its regularity could be
+  /// proved: around singular points, where the surface touches the border of the box, near points where f is undefined,
+  /// where noise would require too many boxes, or everywhere if the function has no bounds of its gradient.
+  ///
+  /// Boxes are also added where a part of the surface has no triangle, or a feature has no edge, because other parts
+  /// are too close; where points of features are closer to each other than a thousandth of the radius; where the mesh
+  /// is not a manifold; and where a triangle straddles a parabolic curve that is a feature. If CGAL's mesher gave up
+  /// because the surface has bends much smaller than facets, the whole box is undecided: some triangles are missing,
+  /// and others violate the criteria.
   std::vector<CGAL::Bbox_3> undecided_boxes;
-  Parabolic_curves_3<Kernel> parabolic_curves; ///< if the mesh was asked to follow them
+  Parabolic_curves_3<Kernel> parabolic_curves; ///< if the option `parabolic_curves` is set
 };
 
 } // namespace equiaffine
@@ -50,21 +51,21 @@ struct Delaunay_surface_3 : Isosurface_3<Kernel> {
 #endif
 namespace equiaffine::internal {
 
-/// The criteria that every triangle of a Delaunay mesh satisfies: see Delaunay_options.
+/// The criteria that every triangle of a Delaunay mesh satisfies, see Delaunay_options.
 struct Delaunay_criteria {
   double angle, radius, distance;
 };
 
-/// The arguments of `delaunay_surface`, apart from the function.
+/// The arguments of `delaunay_surface` except the function.
 struct Meshing_request_3 {
   Clip_domain_3 domain;
   Delaunay_criteria criteria;
   Facet_sizing sizing;
   std::vector<Polyline_3<Any_function_3::Kernel>> feature_curves;
-  bool follows_parabolic_curves; ///< the parabolic curves become features in a second mesh
+  bool follows_parabolic_curves; ///< the parabolic curves become features of a second mesh
 };
 
-/// The work of `delaunay_surface`, which does not depend on the type of the function. The library defines it.
+/// The part of `delaunay_surface` that does not depend on the type of the function; compiled into the library.
 Delaunay_surface_3<Any_function_3::Kernel> mesh_surface(const Any_function_3& function,
                                                         const Meshing_request_3& request);
 
@@ -75,7 +76,7 @@ Delaunay_surface_3<Any_function_3::Kernel> mesh_surface(const Any_function_3& fu
 
 namespace equiaffine::internal {
 
-/// Which boxes and radii Delaunay meshes work with, whatever the unit of the coordinates is.
+/// The range of boxes and radii for which Delaunay meshing works.
 class Delaunay_range {
 public:
   /// The mesher computes polynomials of degree 6 in lengths, which must neither overflow nor underflow.
@@ -91,7 +92,8 @@ public:
 
   bool has_box() const { return diagonal_ >= least && std::max(diagonal_, greatest_coordinate_) <= greatest; }
 
-  /// The rounding of coordinates would spoil the shape of facets smaller than about a thousand units in the last place.
+  /// Rounding of the coordinates would spoil the shape of facets smaller than about a thousand units in the last
+  /// place.
   double least_radius() const { return 1024 * std::numeric_limits<double>::epsilon() * greatest_coordinate_; }
 
 private:
@@ -140,7 +142,7 @@ constexpr void check_delaunay_parameters() {
   check_parameters<Parameters, Feature_curves_tag, Geom_traits_tag, Verbose_tag, OtherTags...>();
 }
 
-/// The function delaunay_surface() with all its named parameters in one chain, which may have others.
+/// delaunay_surface() with all its named parameters in one chain, which may contain further ones.
 template <class Traits, class Parameters>
 Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface_of(const Traits& traits, const Delaunay_options& options,
                                                           const Parameters& parameters) {
@@ -153,8 +155,8 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface_of(const Traits& traits, 
   check_argument(range.has_box(), "the box of a Delaunay mesh has a diagonal below 1e-40 or coordinates beyond 1e40: "
                                   "choose another unit");
   check_argument(criteria.radius >= range.least_radius(),
-                 "the radius of a Delaunay mesh is less than 2.3e-13 of the greatest coordinate of the box: choose a "
-                 "larger one, or an origin nearer to the box");
+                 "the radius of a Delaunay mesh is less than 2.3e-13 times the largest coordinate of the box: choose a "
+                 "larger radius, or an origin nearer to the box");
   return convert_surface<Kernel_of<Traits>>(mesh_surface(
       Any_function_3::make(traits),
       {domain, criteria, options.sizing, convert_polylines<Any_function_3::Kernel>(curves), options.parabolic_curves}));
@@ -168,33 +170,35 @@ namespace equiaffine {
 /// surfaces, 2005). The result is a triangle mesh with vertices on the surface, angles of at least `options.angle`,
 /// and normals along the gradient.
 ///
-/// CGAL's 3D Mesh Generation refines the mesh. It starts from points on every component of the surface, which are found
-/// by subdividing the domain into boxes with the interval bounds of the function. If the result `is_certified`, no
-/// component was missed, however small. A closed regular surface gives a closed oriented 2-manifold.
+/// CGAL's 3D Mesh Generation refines the mesh. It starts from points on every component of the surface, which are
+/// found by subdividing the domain into boxes with the interval bounds of the function. If the result `is_certified`,
+/// no component was missed, however small. The mesh of a closed regular surface is a closed oriented 2-manifold.
 ///
-/// Features are made of edges of the mesh: the curves where the surface meets the border of the clip domain,
-/// `feature_curves`, and, with the option `parabolic_curves`, the parabolic curves with their crossings and their ends
-/// on the border. Where features are nearer to each other than the radius, or meet in sharp corners, edges are shorter,
-/// and angles at the corners smaller. Features nearer to each other than a fiftieth of the radius may lose edges; the
-/// mesh is then not certified, and need not be manifold there. Features much smaller than the radius may be missed.
-/// Nodes of the surface, such as the apex of a cone, are vertices, and so are apexes where f has no gradient, such as
-/// that of half a cone or the corner of a cube. The curves where the surface ends since f is not defined beyond become
-/// features, too, to a hundredth of the radius. Near other singular points the mesh ends in facets of radius/8,
-/// whatever their angles.
+/// Features consist of edges of the mesh: the curves where the surface meets the border of the clip domain,
+/// `feature_curves`, and, with the option `parabolic_curves`, the parabolic curves with their crossings and their
+/// ends on the border. Where features are closer to each other than the radius, or meet in sharp corners, edges are
+/// shorter, and angles at the corners are smaller. Features closer to each other than a fiftieth of the radius may
+/// lose edges; the mesh is then not certified and may not be a manifold there. Features much smaller than the radius
+/// may be missed.
+///
+/// Conical singular points of the surface, such as the apex of a cone, become vertices of the mesh. So are apexes where
+/// f has no gradient, such as that of half a cone or the corner of a cube. The curves where the surface ends because f
+/// is undefined beyond them also become features, with an accuracy of a hundredth of the radius. Near other singular
+/// points, the mesh ends with facets of size radius/8, whose angles are not bounded.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
 /// | `feature_curves` | range of Polyline_3 | none | curves on the surface that edges follow |
 ///
-/// The named parameters `geom_traits` and `verbose` are accepted for compatibility with CGAL; ignored. Segments of
-/// `feature_curves` are short beside the facets; the mesh has vertices of its own on them.
+/// The named parameters `geom_traits` and `verbose` are accepted for compatibility with CGAL and ignored. Segments of
+/// `feature_curves` should be short compared to the facets; the mesh has its own vertices on them.
 /// \throw Input_error for bad options
-/// \throw std::invalid_argument unless the clip domain has an interior and is finite, the diagonal of its box is at
-/// least 1e-40 and, as its coordinates, at most 1e40, and the radius is at least 1024 epsilons of the greatest
-/// coordinate
+/// \throw std::invalid_argument unless the clip domain is finite and has an interior, the diagonal of its box is at
+/// least 1e-40, the diagonal and the coordinates are at most 1e40, and the radius is at least 1024 epsilons of the
+/// largest coordinate
 ///
-/// The result is the same on every run. One thread computes it: 20,000 triangles take about 0.2 seconds, and 10 to 40
-/// evaluations per triangle.
+/// The result is the same on every run. It is computed by one thread: 20,000 triangles take about 0.2 seconds, with
+/// 10 to 40 evaluations per triangle.
 template <ImplicitFunctionTraits_3 Traits, internal::Parameter_chain... Parameters>
 Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, const Delaunay_options& options = {},
                                                        const Parameters&... given) {
@@ -202,8 +206,8 @@ Delaunay_surface_3<Kernel_of<Traits>> delaunay_surface(const Traits& traits, con
   return internal::delaunay_surface_of(traits, options, internal::joined_parameters(given...));
 }
 
-/// The same for the level set f = isovalue, whose points and triangles are added to containers of the caller: see
-/// to_polygon_soup(). The result has no mesh, but the rest.
+/// The same for the level set f = isovalue. Its points and triangles are appended to the caller's containers, see
+/// to_polygon_soup(). The returned object contains everything except the mesh.
 template <ImplicitFunctionTraits_3 Traits, class Points, class Triangles, internal::Parameter_chain... Parameters>
 Delaunay_surface_3<Kernel_of<Traits>>
 delaunay_surface(const Traits& traits, const typename Traits::FT& isovalue, Points& points, Triangles& triangles,
@@ -215,8 +219,8 @@ delaunay_surface(const Traits& traits, const typename Traits::FT& isovalue, Poin
   return internal::without_mesh(std::move(surface));
 }
 
-/// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph: see to_face_graph(). Further named
-/// parameters are
+/// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph, see to_face_graph(). Further
+/// named parameters are
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
@@ -234,7 +238,7 @@ delaunay_surface(const Traits& traits, Graph& graph, const Delaunay_options& opt
 }
 
 /// \cond
-// A call that is mistaken, see explain_sampler.h.
+// Explains wrong arguments, see explain_sampler.h.
 template <class Traits, class... Others>
 void delaunay_surface(const Traits&,
                       const Others&...) requires Mistaken_for_sampler<Delaunay_options, Traits, Others...> {

@@ -25,7 +25,7 @@
 
 namespace equiaffine::internal {
 
-/// The nearest float; an infinity beyond the largest.
+/// The nearest float; infinity beyond the largest one.
 inline float nearest_float(double value) {
   constexpr double largest = std::numeric_limits<float>::max();
   if (std::abs(value) > largest) value = std::copysign(std::numeric_limits<double>::infinity(), value);
@@ -42,7 +42,7 @@ std::array<double, 3> center_of(const std::vector<Point_3>& points) {
           box.zmin() + (box.zmax() - box.zmin()) / 2};
 }
 
-/// Whether columns and status are as long as the points, and all triangles have vertices that exist.
+/// Whether the lengths of columns and status match the points, and all triangles have existing vertices.
 template <class Kernel>
 bool is_consistent(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes) {
   const std::size_t size = mesh.points.size();
@@ -52,7 +52,7 @@ bool is_consistent(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_att
          });
 }
 
-/// The parts of a mesh of any kernel that a page shows.
+/// The data of a mesh that a page shows, independent of the kernel.
 struct Page_surface {
   template <class Kernel>
   Page_surface(const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes)
@@ -72,19 +72,19 @@ struct Page_surface {
   Numbers_of_mesh numbers;
 };
 
-// The library defines these functions.
+// These functions are compiled into the library.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 
-/// Whether the page can show what `Display_options::color` names.
+/// Whether the page can show the attribute `Display_options::color`.
 bool is_offered(const std::string& color, const Vertex_attributes& attributes);
 
-/// Everything that the page has to know besides the arrays, as JSON.
+/// All data of the page besides the arrays, as JSON.
 std::string page_facts(const Numbers_of_mesh& numbers, const Vertex_attributes& attributes, const Display_options& options,
                        const std::array<double, 3>& center, const Parabolic_parts& parabolic);
 
-/// The page of `write_HTML`: its elements, the facts and arrays of the surface, and the script that draws it.
+/// The page of `write_HTML`: its elements, the data and arrays of the surface, and the script that draws it.
 void write_page(std::ostream& out, const Page_surface& surface, const Vertex_attributes& attributes,
                 const Display_options& options);
 
@@ -97,13 +97,13 @@ void write_page(std::ostream& out, const Page_surface& surface, const Vertex_att
 namespace equiaffine {
 
 /// Writes one self-contained web page (WebGL 2, no network) that shows the surface colored by any of its attributes.
-/// Numbers are stored in single precision, positions relative to the center of the bounding box; a million vertices
-/// with twenty attributes make 156 MB. A fragment such as `#color=pick_invariant&view=1,0,0` chooses what is shown
-/// first; the page's help lists its keys. Where a column NAME_error has estimates of the errors of NAME, colors and
-/// digits say how far to trust it.
-/// \pre every column and the status, if there is one, are as long as `points`, triangles index `points`,
-/// `options.color` names an attribute or is `status` (when there is one), `plain` or empty, `options.range` is
-/// ascending, `options.up` is not zero
+/// Numbers are stored in single precision, and positions relative to the center of the bounding box; a million
+/// vertices with twenty attributes take 156 MB. A URL fragment such as `#color=pick_invariant&view=1,0,0` selects
+/// what is shown first; the page's help lists its keys. If a column NAME_error has estimates of the errors of NAME,
+/// colors and digits show the accuracy.
+/// \pre the lengths of all columns and of the status, if any, match `points`, triangles index `points`,
+/// `options.color` is an attribute, `status` (if there is one), `plain`, or empty, `options.range` is ascending, and
+/// `options.up` is not zero
 template <class Kernel>
 void write_HTML(std::ostream& out, const Indexed_triangle_mesh_3<Kernel>& mesh, const Vertex_attributes& attributes,
                 const Display_options& options = {}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Marching Cubes, attributes and distances for formulas and splines with the vector instructions of the processor that
-// runs the program, whatever flags it is compiled with. The code is in the compiled library.
+// Marching Cubes, attributes and distances for formulas and splines, with the vector instructions of the processor at
+// run time, independent of the flags of the calling program.
 #ifndef EQUIAFFINE_ENGINE_VECTORIZED_H
 #define EQUIAFFINE_ENGINE_VECTORIZED_H
 
@@ -23,15 +23,15 @@ namespace equiaffine::vectorized {
 
 using Kernel = CGAL::Simple_cartesian<double>; ///< the kernel of the functions
 
-/// An expression, under an affine map or without one.
+/// An expression, optionally under an affine map.
 using Formula = Transformed_function_traits_3<Analytic_function_traits_3<Kernel, Expression_3>>;
-/// A spline through samples, under an affine map or without one.
+/// A spline through samples, optionally under an affine map.
 using Spline = Transformed_function_traits_3<Sampled_function_traits_3<Kernel>>;
 
-/// Vector instructions for which the library is compiled. Numbers are the same for all of them, bit for bit, if the
-/// library is compiled with -ffp-contract=off, the default of its own builds.
+/// The instruction sets for which the library is compiled. Results are bitwise equal for all of them if the library is
+/// compiled with -ffp-contract=off, the default of its own builds.
 enum class Instruction_set {
-  BASELINE, ///< what the flags of the library's build allow
+  BASELINE, ///< determined by the flags of the library's build
   AVX2,     ///< AVX2 and FMA
   AVX512    ///< AVX-512 F, BW, DQ and VL
 };
@@ -43,12 +43,12 @@ enum class Instruction_set {
 #endif
 namespace equiaffine::vectorized {
 
-/// Returns the instruction sets that the library is compiled for and this processor has, the narrowest first. Beyond
-/// BASELINE there are some on x86-64 under Linux.
+/// Returns the instruction sets that both the library's build and this processor support, narrowest first. BASELINE is
+/// the only one except on x86-64 Linux.
 std::vector<Instruction_set> instruction_sets();
 
-/// Meshes a level set as equiaffine::marching_cubes() does. It works in threads if the library is compiled with TBB,
-/// and evaluates f as often as that function does.
+/// Meshes a level set like equiaffine::marching_cubes(), with the same number of evaluations of f. Multithreaded if the
+/// library is compiled with TBB.
 ///
 /// \code{.cpp}
 /// using namespace equiaffine;
@@ -56,7 +56,8 @@ std::vector<Instruction_set> instruction_sets();
 /// const auto surface = vectorized::marching_cubes(Level_set_traits_3(f, 0.0), {.resolution = 128});
 /// \endcode
 ///
-/// \throw Input_error for bad options, and std::invalid_argument if `set` is not in instruction_sets()
+/// \throw Input_error if options are invalid
+/// \throw std::invalid_argument if `set` is not in instruction_sets()
 Isosurface_3<Kernel> marching_cubes(const Level_set_traits_3<Formula>& level_set,
                                     const Marching_cubes_options& options = {},
                                     Instruction_set set = instruction_sets().back());
@@ -65,9 +66,9 @@ Isosurface_3<Kernel> marching_cubes(const Level_set_traits_3<Spline>& level_set,
                                     const Marching_cubes_options& options = {},
                                     Instruction_set set = instruction_sets().back());
 
-/// Computes the selected attributes of points as equiaffine::compute_attributes() does, by the same number of
-/// expansions, in threads if the library is compiled with TBB. `sampled` is what that function takes.
-/// \throw std::invalid_argument if it has another number of statuses or areas, or `set` is not in instruction_sets()
+/// Computes the selected attributes of points like equiaffine::compute_attributes(), with the same number of expansions
+/// and the same meaning of `sampled`. Multithreaded if the library is compiled with TBB.
+/// \throw std::invalid_argument if the number of statuses or areas is wrong, or `set` is not in instruction_sets()
 Vertex_attributes compute_attributes(const Level_set_traits_3<Formula>& level_set,
                                      std::span<const Kernel::Point_3> points, const Attribute_selection& selection,
                                      const Sampled_vertices& sampled = {},
@@ -78,9 +79,9 @@ Vertex_attributes compute_attributes(const Level_set_traits_3<Spline>& level_set
                                      const Sampled_vertices& sampled = {},
                                      Instruction_set set = instruction_sets().back());
 
-/// The greatest distance of points from a level set, to first order, as equiaffine::max_distance_to_surface() computes
-/// it, by the same number of evaluations, in threads if the library is compiled with TBB.
-/// \throw std::invalid_argument if there are statuses, but not one per point, or `set` is not in instruction_sets()
+/// The maximal distance of points from a level set, to first order, like equiaffine::max_distance_to_surface(), with
+/// the same number of evaluations. Multithreaded if the library is compiled with TBB.
+/// \throw std::invalid_argument if there are statuses but not one per point, or `set` is not in instruction_sets()
 double max_distance_to_surface(const Level_set_traits_3<Formula>& level_set, std::span<const Kernel::Point_3> points,
                                std::span<const Point_status> status = {},
                                Instruction_set set = instruction_sets().back());

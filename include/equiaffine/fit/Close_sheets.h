@@ -6,12 +6,12 @@
 
 namespace equiaffine {
 
-/// Sheets of the data of a fit that are nearer to each other than the steps of a grid. Marching Cubes on that grid may
-/// join them, or leave holes there.
+/// Sheets of the data of a fit that are closer to each other than the steps of a grid. Marching Cubes on that grid
+/// may join them or leave holes.
 struct Close_sheets {
-  std::size_t points = 0;     ///< the number of data that have another sheet so near
-  double distance = 0;        ///< that a tenth of them are nearer than, in the unit of the data; NaN without points
-  std::size_t resolution = 0; ///< the number of nodes, along the longest side, of a grid that separates the others
+  std::size_t points = 0;     ///< number of data points with another sheet closer than a step
+  double distance = 0;        ///< a tenth of them are closer than this, in the unit of the data; NaN without points
+  std::size_t resolution = 0; ///< nodes along the longest side of a grid that separates the rest
 };
 
 } // namespace equiaffine

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Moves the vertices of a triangle mesh onto the zero set of a fit to it.
+// Moves the vertices of a triangle mesh onto the zero set of a fit.
 #ifndef EQUIAFFINE_FIT_MOVE_TO_FIT_H
 #define EQUIAFFINE_FIT_MOVE_TO_FIT_H
 
@@ -26,20 +26,20 @@
 
 namespace equiaffine::internal {
 
-/// The move of a vertex of a mesh onto the zero set of a fit, if there is one.
+/// The zero of a fit for a vertex of a mesh, if there is one.
 struct Zero_of_fit_3 {
   Fit_outcome outcome;
   Eigen::Vector3d move = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< the unit normal of the fit at the zero
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero(); ///< unit normal of the fit at the zero
 };
 
-/// Finds the zero of a fit for a vertex with a normal, which need not have length 1, and edges of a mean length. The
-/// search starts below or above the vertex where the fit has no derivatives at the vertex itself.
+/// Finds the zero of a fit for a vertex with a normal, which need not be a unit vector, and a mean edge length. If
+/// the fit has no derivatives at the vertex, the search starts above or below it.
 template <class Fit>
 Zero_of_fit_3 zero_of_fit(const Fit& fit, const Eigen::Vector3d& vertex, const Eigen::Vector3d& normal, double edge) {
   using FT = typename Fit::FT;
   constexpr double least_cosine = 0.5; // of the angle between the normals of fit and mesh
-  constexpr double reach = 0.5;        // of a zero, a part of the edges or of the distance of the data
+  constexpr double reach = 0.5;        // of a zero, as a multiple of the edge length or of the spacing of the data
   const auto is_known = [](const auto& jet) { return std::isfinite(CGAL::to_double(jet.value())); };
   typename Fit::Point_3 start(vertex[0], vertex[1], vertex[2]);
   auto jet = fit.first_order(start);
@@ -61,16 +61,16 @@ Zero_of_fit_3 zero_of_fit(const Fit& fit, const Eigen::Vector3d& vertex, const E
   return {Fit_outcome::ON_FIT, move, gradient.normalized()};
 }
 
-/// Moves the vertices of a mesh to their zeros of a fit, as far as no triangle turns over or crosses another one that
-/// it did not cross before. Vertices without a zero follow their neighbors, and those on features stay. Where a
-/// triangle turns over or crosses another one, the vertices that follow stay where they were, and if that is not
-/// enough, those with a zero do, too. This ends, since nothing is wrong where no vertex moves; from some number of
-/// rounds on, whole neighborhoods stay, which grow.
+/// Moves the vertices of a mesh to their zeros of a fit, such that no triangle flips and no new intersections of
+/// triangles occur. Vertices without a zero follow their neighbors, and vertices on features stay. Where a triangle
+/// flips or intersects another one, the followers are put back first, and then the vertices with a zero if that is
+/// not enough. This terminates, because the given positions are valid; after a number of rounds whole neighborhoods
+/// of growing size are put back.
 class Whole_motion_3 {
 public:
   using Vector = Eigen::Vector3d;
 
-  /// Takes the pairs of triangles that cross each other in the mesh, in order.
+  /// Takes the pairs of intersecting triangles of the mesh, sorted.
   Whole_motion_3(const Triangle_array_3& mesh, std::vector<Zero_of_fit_3> zeros, std::vector<Triangle_pair> crossings)
       : mesh_(mesh), zeros_(std::move(zeros)), stays_(mesh.points().size()), moved_(mesh.points()),
         tested_(mesh.points()), old_crossings_(std::move(crossings)), crossings_(old_crossings_) {
@@ -92,8 +92,8 @@ private:
   bool is_on_fit(std::size_t v) const { return zeros_[v].outcome == Fit_outcome::ON_FIT; }
   bool is_on_feature(std::size_t v) const { return zeros_[v].outcome == Fit_outcome::ON_FEATURE; }
 
-  /// Whether the moves of two neighbors go to the same sheet of the fit: they differ by little, or the new edge is as
-  /// oblique to the normals at both ends as a chord of a smooth surface, whose mean angle to them is a right one.
+  /// Whether two neighbors move to the same sheet of the fit: their moves differ little, or the new edge is about as
+  /// oblique to the normals at both ends as a chord of a smooth surface, whose mean angle to them is a right angle.
   bool agree(std::size_t u, std::size_t v) const {
     constexpr double slope = 0.35, chord_slope = 0.2;
     const Vector edge = mesh_.points()[v] - mesh_.points()[u];
@@ -102,13 +102,13 @@ private:
     return std::abs(chord.dot(zeros_[u].normal + zeros_[v].normal)) <= 2 * chord_slope * chord.norm();
   }
 
-  /// Whether a vertex leaves a neighbor on a feature, which does not move: the fit makes the feature round.
+  /// Whether a vertex moves away from a neighbor on a feature, which stays: the fit rounds the feature off.
   bool leaves(std::size_t v, std::size_t feature) const {
     constexpr double slope = 0.2;
     return zeros_[v].move.norm() > slope * (mesh_.points()[v] - mesh_.points()[feature]).norm();
   }
 
-  /// Gives up the larger one of the moves of two neighbors that disagree, and the moves that leave a feature.
+  /// Discards the larger move of two neighbors that disagree, and moves away from features.
   void keep_to_one_sheet() {
     std::vector<std::size_t> torn;
     for (std::size_t v = 0; v < zeros_.size(); ++v) {
@@ -121,7 +121,7 @@ private:
     for (const auto v : torn) zeros_[v].outcome = Fit_outcome::TORN_AWAY;
   }
 
-  /// Vertices without a zero take over the mean of the moves of their neighbors, less with every edge from the fit.
+  /// Vertices without a zero take the mean move of their neighbors, damped with every edge away from the fit.
   void follow() {
     constexpr int rings = 20;
     constexpr double loss = 0.03;
@@ -147,7 +147,7 @@ private:
     return std::any_of(t.begin(), t.end(), [&](auto v) { return moved_[v] != mesh_.points()[v]; });
   }
 
-  /// Makes vertices of a triangle stay, unless it is where it was.
+  /// Marks vertices of a triangle to be put back: the followers, or all if there are none.
   void hold(const Index_triangle& t, Fit_outcome why) {
     bool follows = false;
     for (const auto v : t)
@@ -157,7 +157,7 @@ private:
       if (moved_[v] != mesh_.points()[v]) held_.emplace_back(v, why);
   }
 
-  /// Makes the vertices stay that were to be held. Returns whether there are any.
+  /// Fixes the marked vertices. Returns whether there are any.
   bool make_stay() {
     for (const auto& [v, why] : held_) {
       if (is_on_fit(v)) zeros_[v].outcome = why;
@@ -177,7 +177,7 @@ private:
     return make_stay();
   }
 
-  /// Tests the triangles that have moved since the last test.
+  /// Tests only the triangles that have moved since the last test.
   bool hold_crossing_triangles() {
     held_.clear();
     const auto& triangles = mesh_.triangles();
@@ -197,7 +197,7 @@ private:
     return make_stay();
   }
 
-  /// After many rounds, the vertices around those that were held stay, too: 1 ring of them, then 2, 4, and so on.
+  /// After many rounds, fixes the vertices around those marked, too: 1 ring of them, then 2, 4, and so on.
   void widen() {
     constexpr int many = 20;
     if (rounds_ <= many) return;
@@ -214,14 +214,14 @@ private:
 
   const Triangle_array_3& mesh_;
   std::vector<Zero_of_fit_3> zeros_;
-  std::vector<char> stays_; ///< of vertices that do not move
+  std::vector<char> stays_; ///< per vertex
   std::vector<Vector> moved_, tested_;
-  std::vector<std::pair<std::uint32_t, Fit_outcome>> held_; ///< in this round
+  std::vector<std::pair<std::uint32_t, Fit_outcome>> held_; ///< marked in this round
   std::vector<Triangle_pair> old_crossings_, crossings_;
   int rounds_ = 0;
 };
 
-/// Moves the vertices of a mesh whose triangles cross each other in some pairs, and no others. Those that are marked as
+/// Computes the motion of a mesh to a fit, given the intersecting pairs of its triangles. Vertices marked as
 /// features stay; without marks there are none.
 template <class ConcurrencyTag, class Fit>
 Whole_motion_3 motion_to_fit(const Triangle_array_3& mesh, const Fit& fit, std::vector<Triangle_pair> crossings,
@@ -239,7 +239,7 @@ Whole_motion_3 motion_to_fit(const Triangle_array_3& mesh, const Fit& fit, std::
   return Whole_motion_3(mesh, std::move(zeros), std::move(crossings));
 }
 
-/// Gives the vertices of a mesh, in their order, their new points and outcomes.
+/// Assigns the new points and the outcomes to the vertices of a mesh.
 template <class Kernel, class Mesh, class Parameters>
 Fit_move_report apply_motion(Mesh& mesh, const Whole_motion_3& motion, const Parameters& parameters) {
   const auto point_of = vertex_points(mesh, parameters);
@@ -262,23 +262,24 @@ Fit_move_report apply_motion(Mesh& mesh, const Whole_motion_3& motion, const Par
 
 namespace equiaffine {
 
-/// Moves the vertices of a triangle mesh onto the zero set of a fit to it, or to a surface near it, as far as that
-/// leaves the mesh whole: no triangle turns by more than 60 degrees, and none crosses another one that it did not cross
-/// before. Triangles stay what they are, so that closed meshes stay closed and borders stay borders.
+/// Moves the vertices of a triangle mesh onto the zero set of a fit to it, or to a surface near it, as far as the
+/// mesh stays valid: no triangle turns by more than 60 degrees, and no new intersections of triangles occur. The
+/// connectivity does not change, so closed meshes stay closed and borders stay borders.
 ///
-/// A vertex moves along the gradient of the fit, by 1.25 times the mean length of its edges at most, or the
-/// distance of the data if that is more. It does not where the fit has no derivatives or no zero near enough, faces
-/// another way, or is that of another sheet. Such vertices follow their neighbors, less with every edge from the fit.
+/// A vertex moves along the gradient of the fit, by at most 1.25 times the mean length of its edges, or of the
+/// spacing of the data if that is larger. It does not move to the fit if the fit has no derivatives or no zero close
+/// enough, has a different orientation, or is that of another sheet. Such vertices follow their neighbors, damped
+/// with every edge away from the fit.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
 /// | `vertex_point_map` | writable property map | the mesh's own | from vertices to points of the fit's kernel |
 /// | `vertex_outcome_map` | writable property map | none | from vertices to Fit_outcome |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
-/// Takes some 30 microseconds per vertex, and n log n time for the search of crossings,
-/// again for each of the rounds in which vertices stay, which are at most some 20 + log n. CGAL::Parallel_tag gives the
-/// same numbers.
+/// `geom_traits` and `verbose` are accepted for compatibility with CGAL, and ignored.
+///
+/// Takes about 30 microseconds per vertex, and n log n time for the search for intersections in each of at most
+/// about 20 + log n rounds. CGAL::Parallel_tag gives the same numbers.
 /// \throw std::invalid_argument if a face is not a triangle, or a coordinate is not finite.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, class Kernel,
           internal::Parameter_chain... Parameters>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Remeshes a triangle mesh, and moves its vertices onto the zero set of a fit to it.
+// Remeshes a triangle mesh, and moves its vertices onto the zero set of a fit.
 #ifndef EQUIAFFINE_FIT_REMESH_ON_FIT_H
 #define EQUIAFFINE_FIT_REMESH_ON_FIT_H
 
@@ -40,13 +40,13 @@
 
 namespace equiaffine::internal {
 
-/// The places where triangles of a mesh cross each other, and what is near them.
+/// The neighborhoods of the places where triangles of a mesh intersect.
 class Crossing_places_3 {
 public:
   Crossing_places_3(const Triangle_array_3& mesh, const std::vector<Triangle_pair>& crossings, double distance)
       : boxes_(boxes_of(mesh, crossings, distance)) {}
 
-  /// Returns whether all crossings of another mesh are at these places.
+  /// Returns whether all intersections of another mesh are at these places.
   bool contain(const Triangle_array_3& mesh, const std::vector<Triangle_pair>& crossings) const {
     std::vector<Triangle_box_3> mine = boxes_, others = boxes_of(mesh, crossings, 0);
     std::vector<char> is_here(others.size());
@@ -56,7 +56,7 @@ public:
   }
 
 private:
-  /// The boxes that both triangles of a pair have in common, widened by a distance.
+  /// The intersections of the boxes of both triangles of each pair, widened by a distance.
   static std::vector<Triangle_box_3> boxes_of(const Triangle_array_3& mesh, const std::vector<Triangle_pair>& crossings,
                                               double distance) {
     std::vector<Triangle_box_3> boxes;
@@ -73,13 +73,14 @@ private:
   std::vector<Triangle_box_3> boxes_;
 };
 
-/// How far other meshes are from a mesh, and this one from them, at vertices and centers of triangles.
+/// The deviation between a mesh and other meshes, measured at vertices and triangle centers.
 class Deviation_3 {
 public:
   explicit Deviation_3(const Triangle_array_3& mesh) : mesh_(mesh), tree_(tree_of(mesh)) {}
 
-  /// The vertices beside which the meshes are farther from each other than a limit: those that are, the corners of
-  /// triangles whose centers are, and those of the triangles nearest to what is in the other mesh. In order.
+  /// The vertices near which the distance between the meshes exceeds a limit, sorted: those beyond it themselves,
+  /// the corners of triangles whose centers are, and the corners of the triangles nearest to such places of the
+  /// other mesh.
   template <class ConcurrencyTag>
   std::vector<std::uint32_t> far_vertices(const Triangle_array_3& other, double limit) const {
     std::vector<std::uint32_t> far;
@@ -102,7 +103,7 @@ public:
     return far;
   }
 
-  /// The greatest distance of the other mesh from this one, and of this one from the other.
+  /// The largest distance from the other mesh to this one, and from this one to the other.
   template <class ConcurrencyTag>
   std::pair<double, double> greatest(const Triangle_array_3& other) const {
     const auto greatest_of = [](const auto& distances) {
@@ -123,8 +124,8 @@ private:
     return Triangle_tree_3(mesh.points(), mesh.triangles(), point_of);
   }
 
-  /// The distances of the vertices and then of the centers of the triangles of a mesh, and the nearest triangles; 0 for
-  /// vertices in no triangle.
+  /// The distances of the vertices, and then of the triangle centers, from another mesh, and the nearest triangles;
+  /// 0 for isolated vertices.
   template <class ConcurrencyTag>
   static std::vector<std::pair<double, std::size_t>> distances(const Triangle_array_3& mesh,
                                                                const Triangle_tree_3& tree) {
@@ -144,9 +145,9 @@ private:
   const Triangle_tree_3 tree_;
 };
 
-/// Remeshes a copy of a mesh so that its topology stays, triangles cross each other only where some did before, and
-/// both meshes are within a tenth of an edge of each other: with edges of a length, or shorter ones if that is too
-/// long. If none of them will do, the mesh stays as it is.
+/// Remeshes a copy of a mesh. The topology stays, triangles intersect only where some did before, and both meshes
+/// are within a tenth of an edge of each other. If the target edge length is too long for that, shorter ones are
+/// tried; if none works, the mesh stays as it is.
 template <class Kernel>
 class Whole_remesh_3 {
 public:
@@ -155,7 +156,7 @@ public:
 
   static constexpr const char* name_of_edges = "e:equiaffine_constrained";
 
-  /// The map that `name_of_edges` has in the mesh marks the edges that are kept.
+  /// Edges marked by the property map `name_of_edges` of the mesh are kept.
   template <class ConcurrencyTag>
   Whole_remesh_3(const Mesh& given, const Remesh_options& options, ConcurrencyTag)
       : array_(triangle_array_of(given, No_parameters())), mesh_(given) {
@@ -169,8 +170,8 @@ public:
       edge_length_ = std::min(options.edge_length.value_or(mean), diagonal_of(given_array));
       if (!(edge_length_ >= least))
         throw Input_error::about("edge_length",
-                                 "edges of that length would make more than 10^8 triangles, or more than "
-                                 "10^4 parts of an edge: give longer ones");
+                                 "this edge length would give more than 10^8 triangles, or split an edge into more "
+                                 "than 10^4 parts: give a longer one");
       const Deviation_3 deviation(given_array);
       do {
         if (remesh_nearby<ConcurrencyTag>(given, given_array, deviation, options.iterations) &&
@@ -192,7 +193,7 @@ public:
   const Triangle_array_3& array() const { return array_; }
   const std::vector<Triangle_pair>& crossings() const { return crossings_; }
 
-  /// Marks the vertices of edges that are kept and no borders.
+  /// Marks the vertices of kept edges that are not on a border.
   std::vector<char> features() {
     std::vector<char> result(mesh_.number_of_vertices());
     const Edge_map is_kept = kept_edges();
@@ -202,12 +203,12 @@ public:
     return result;
   }
 
-  /// The map that marks the edges that are kept.
+  /// The property map of the kept edges.
   Edge_map kept_edges() {
     return mesh_.template add_property_map<typename Mesh::Edge_index, bool>(name_of_edges, false).first;
   }
 
-  /// The length of edges that was aimed at; 0 if the mesh stayed as it was.
+  /// The target edge length; 0 if the mesh stayed as it was.
   double edge_length() const { return edge_length_; }
 
 private:
@@ -233,22 +234,22 @@ private:
     return {number_of_border_loops(mesh), topology.components, topology.euler_characteristic};
   }
 
-  /// CGAL's remeshing has undefined behavior for some meshes with triangles that are lines or points.
+  /// CGAL's remeshing has undefined behavior for some meshes with degenerate triangles.
   static bool has_degenerate_face(const Mesh& mesh) {
     return std::any_of(mesh.faces().begin(), mesh.faces().end(),
                        [&](auto f) { return CGAL::Polygon_mesh_processing::is_degenerate_triangle_face(f, mesh); });
   }
 
-  /// The diagonal of the bounding box: no edge of a remesh is longer.
+  /// The diagonal of the bounding box, an upper bound on the edge length of a remesh.
   static double diagonal_of(const Triangle_array_3& array) {
     Eigen::AlignedBox3d box;
     for (const auto& p : array.points()) box.extend(p);
     return box.diagonal().norm();
   }
 
-  /// The least length of edges that makes no more than 10^8 triangles and 10^4 parts of an edge. A mesh has about as
-  /// many triangles as equilateral ones cover its area. Thin triangles become more where their edges are cut, which
-  /// takes quadratic time in the parts of each.
+  /// The smallest edge length that gives at most 10^8 triangles and splits no edge into more than 10^4 parts. The
+  /// number of triangles is about that of the equilateral ones that cover the area. Splitting edges of thin
+  /// triangles creates more triangles, in quadratic time in the parts of each edge.
   static double least_length(const Mesh& mesh) {
     constexpr double most_triangles = 1e8, most_parts = 1e4;
     const double area = CGAL::to_double(CGAL::Polygon_mesh_processing::area(mesh));
@@ -268,7 +269,7 @@ private:
     return sum / double(mesh.number_of_edges());
   }
 
-  /// Marks the creases of the given mesh, which this one still is.
+  /// Marks the creases of the given mesh; must be called before remeshing.
   void keep_creases() {
     const Edge_map is_kept = kept_edges();
     for (const auto e : mesh_.edges()) {
@@ -277,12 +278,12 @@ private:
     }
   }
 
-  /// Remeshes the given mesh. Where they are too far from each other, edges of the given one are kept, and it is
-  /// remeshed again. Returns whether they are near each other in the end.
+  /// Remeshes the given mesh. Where both are too far apart, edges of the given mesh are kept, and it is remeshed
+  /// again. Returns whether they are close to each other in the end.
   template <class ConcurrencyTag>
   bool remesh_nearby(const Mesh& given, const Triangle_array_3& given_array, const Deviation_3& deviation,
                      unsigned iterations) {
-    constexpr double farthest = 0.1; // a part of the edges
+    constexpr double farthest = 0.1; // fraction of the edge length
     constexpr int most_rounds = 8;
     std::vector<char> is_detail(given_array.points().size());
     for (int n = 0; n < most_rounds; ++n) {
@@ -297,7 +298,7 @@ private:
     return false;
   }
 
-  /// Marks the neighbors of vertices, and returns those that were not marked.
+  /// Marks the neighbors of vertices, and returns those that were not marked before.
   static std::vector<std::uint32_t> add_ring(const std::vector<std::uint32_t>& vertices, const Triangle_array_3& mesh,
                                              std::vector<char>& marks) {
     std::vector<std::uint32_t> added;
@@ -307,8 +308,8 @@ private:
     return added;
   }
 
-  /// Remeshes by CGAL, which keeps creases, and edges between vertices that are detail. It gives the halves of an edge
-  /// the mark of the whole one.
+  /// Remeshes with CGAL, keeping creases and edges between detail vertices. CGAL gives the halves of a split edge
+  /// the mark of the whole edge.
   void remesh(const std::vector<char>& is_detail, bool collapses_creases, unsigned iterations) {
     enum Mark : unsigned char { FREE, CREASE, DETAIL };
     keep_creases();
@@ -341,7 +342,7 @@ private:
   double edge_length_ = 0;
 };
 
-/// Copies a mesh, and marks the edges that are to be kept in the map of Whole_remesh_3.
+/// Copies a mesh, and marks the edges to keep in the property map of Whole_remesh_3.
 template <class Kernel, class Mesh, class Parameters>
 typename Whole_remesh_3<Kernel>::Mesh copy_to_remesh(const Mesh& mesh, const Parameters& parameters) {
   using Copy = typename Whole_remesh_3<Kernel>::Mesh;
@@ -359,7 +360,7 @@ typename Whole_remesh_3<Kernel>::Mesh copy_to_remesh(const Mesh& mesh, const Par
   return copy;
 }
 
-/// Replaces a mesh by its remesh, and gives the vertices their outcomes.
+/// Replaces a mesh by its remesh, and assigns the outcomes to its vertices.
 template <class Kernel, class Mesh, class Outcomes, class Parameters>
 void replace_by_remesh(Mesh& mesh, Whole_remesh_3<Kernel>& whole_remesh, const Outcomes& outcomes,
                        const Parameters& parameters) {
@@ -384,7 +385,7 @@ void replace_by_remesh(Mesh& mesh, Whole_remesh_3<Kernel>& whole_remesh, const O
   }
 }
 
-/// Moves the remesh of a mesh, and replaces the mesh by it.
+/// Moves the remesh of a mesh to the fit, and replaces the mesh by it.
 template <class ConcurrencyTag, class Kernel, class Mesh, class Parameters>
 Fit_remesh_report replace_by_moved(Mesh& mesh, Whole_remesh_3<Kernel>& remesh, const Whole_motion_3& motion,
                                    const Parameters& parameters) {
@@ -398,7 +399,7 @@ Fit_remesh_report replace_by_moved(Mesh& mesh, Whole_remesh_3<Kernel>& remesh, c
   return {report, remesh.edge_length(), from_data, of_data};
 }
 
-/// Refuses named parameters that are neither those of every remesh nor among `OtherTags`.
+/// Rejects named parameters that are neither common to all remeshing functions nor among `OtherTags`.
 template <class Parameters, class... OtherTags>
 constexpr void check_remesh_parameters() {
   check_parameters<Parameters, Vertex_point_tag, Vertex_outcome_tag, Edge_is_constrained_tag, Geom_traits_tag,
@@ -409,33 +410,33 @@ constexpr void check_remesh_parameters() {
 
 namespace equiaffine {
 
-/// Remeshes a triangle mesh by CGAL's isotropic remeshing, and moves its vertices onto the zero set of a fit to it, see
-/// move_to_fit(). The mesh stays whole: it has the same components, border loops and Euler characteristic, and its
-/// triangles cross each other only within an edge of places where some of those given did. The remesh is within a tenth
-/// of an edge of the given mesh, and the given mesh of the remesh, at vertices and centers of triangles: where detail
-/// is finer than the edges, the given ones are kept, or parts of them. No vertex moves farther from there to the fit
-/// than half of the edges at it, or half of the spacing of the data if that is larger. If edges of the length that was
-/// asked for do not allow that, shorter ones are tried, down to a quarter of the given ones, and then the given
-/// triangles. A length beyond the diagonal of the mesh counts as that diagonal. Vertices in no triangle are removed. A
-/// mesh with a triangle that is a line or a point keeps all its triangles.
+/// Remeshes a triangle mesh with CGAL's isotropic remeshing, and moves its vertices onto the zero set of a fit to
+/// it, see move_to_fit(). The mesh stays valid: it keeps its components, border loops and Euler characteristic, and
+/// its triangles intersect only within an edge length of places where given ones did. At vertices and triangle
+/// centers, the remesh is within a tenth of an edge of the given mesh and vice versa. Where detail is finer than the
+/// edges, given edges are kept, or parts of them. From there no vertex moves to the fit by more than half the length
+/// of its edges, or half the spacing of the data if that is larger. If the requested edge length does not allow
+/// that, shorter ones are tried, down to a quarter of the given edge length, and then the given triangles. The
+/// diagonal of the mesh is an upper limit on the edge length. Isolated vertices are removed. A mesh with a
+/// degenerate triangle keeps all its triangles.
 ///
-/// Edges that are constrained, or sharper than the feature angle, stay where they are: a fit that does not end there
-/// makes them round. Vertices beside them go to the fit only if that is within a fifth of an edge. Sharp edges count
-/// where they follow each other as creases do, see fitted_structures().
+/// Edges that are constrained, or sharper than the feature angle, stay where they are, because a fit that does not
+/// end there would round them off. Vertices next to them move to the fit only by up to a fifth of an edge. Sharp
+/// edges count if they form creases, see fitted_structures().
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
-/// | `edge_is_constrained_map` | writable property map | none | from edges to bool: those that are kept |
+/// | `edge_is_constrained_map` | writable property map | none | from edges to bool: edges to keep; updated |
 /// | `vertex_point_map` | writable property map | the mesh's own | from vertices to points of the fit's kernel |
 /// | `vertex_outcome_map` | writable property map | none | from vertices of the result to Fit_outcome |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
-/// `edge_is_constrained_map` says of the edges of the result, too, whether they are kept. Takes n log n time, some 0.1
-/// ms per vertex, for each of the lengths that are tried, and as much again up to seven times where edges are kept.
-/// CGAL::Parallel_tag gives the same numbers.
-/// \throw Input_error if an option makes no sense, or edges of that length would make more than 10^8 triangles, or more
-/// than 10^4 parts of an edge. \throw std::invalid_argument if a face is not a triangle, or a coordinate is not finite.
-/// The mesh is as it was then.
+/// `geom_traits` and `verbose` are accepted for compatibility with CGAL, and ignored.
+///
+/// Takes n log n time, about 0.1 ms per vertex, for each edge length that is tried, and up to seven times as much
+/// again where edges are kept. CGAL::Parallel_tag gives the same numbers.
+/// \throw Input_error if an option is invalid, or the edge length would give more than 10^8 triangles, or split an
+/// edge into more than 10^4 parts. \throw std::invalid_argument if a face is not a triangle, or a coordinate is not
+/// finite. The mesh is unchanged then.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Mesh, class Kernel,
           internal::Parameter_chain... Parameters>
 Fit_remesh_report remesh_on_fit(Mesh& mesh, const Fitted_function_traits_3<Kernel>& fit,

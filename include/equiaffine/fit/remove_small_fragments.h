@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Removes small fragments from what a sampler makes of a fit.
+// Removes small fragments from a sampled fit.
 #ifndef EQUIAFFINE_FIT_REMOVE_SMALL_FRAGMENTS_H
 #define EQUIAFFINE_FIT_REMOVE_SMALL_FRAGMENTS_H
 
@@ -19,7 +19,7 @@
 
 namespace equiaffine::internal {
 
-/// Whether the inner box comes within a step of the grid to the sides of the outer one, where it may be cut off.
+/// Whether the inner box comes within a grid step of the sides of the outer one, where the surface may be cut off.
 inline bool is_cut_off(const CGAL::Bbox_3& inner, const CGAL::Bbox_3& outer, const std::array<std::size_t, 3>& nodes) {
   for (int a = 0; a < 3; ++a) {
     const double step = (outer.max(a) - outer.min(a)) / double(nodes[std::size_t(a)] - 1);
@@ -28,7 +28,7 @@ inline bool is_cut_off(const CGAL::Bbox_3& inner, const CGAL::Bbox_3& outer, con
   return false;
 }
 
-/// Marks the vertices of edges of one triangle.
+/// Marks the vertices on edges of one triangle.
 template <class Kernel>
 std::vector<bool> borders_of(const Isosurface_3<Kernel>& surface) {
   std::vector<bool> result(surface.points.size(), false);
@@ -44,17 +44,17 @@ std::vector<bool> borders_of(const Isosurface_3<Kernel>& surface) {
 
 namespace equiaffine {
 
-/// Removes small fragments from the zero set of a fit, a Fitted_function_traits_3, as a sampler made it: the connected
-/// components that have a border and are no larger than what the band of one point reaches. They lie beside the border
-/// of the surface, where the band is ragged. A polynomial needs the points of a larger part. Components that the box of
-/// the fit cuts off, on a grid of that many nodes per axis, stay. `to_data` maps points of the surface to the
-/// coordinates of the data, if they are not in these.
+/// Removes small fragments from the sampled zero set of a fit, a Fitted_function_traits_3: the connected components
+/// that have a border and are no larger than the band around one point. They occur next to the border of the
+/// surface, where the band is ragged; a polynomial needs the points of a larger region. Components cut off by the
+/// box of the fit stay; `nodes` are those of the sampling grid. `to_data` maps points of the surface to the
+/// coordinates of the data, if these differ.
 ///
-/// Takes linear time, and a search for the nearest datum for each component with a border.
+/// Takes linear time, and a nearest-neighbor search for each component with a border.
 template <class Kernel, class Fit, class To_data = std::identity>
 void remove_small_fragments(Isosurface_3<Kernel>& surface, const Fit& fit, const std::array<std::size_t, 3>& nodes,
                             const To_data& to_data = {}) {
-  constexpr double reach = 2.5; // in spacings, from side to side
+  constexpr double reach = 2.5; // extent of a fragment in spacings
   const std::size_t n = surface.points.size();
   auto parts = internal::components_of(surface);
   const std::vector<bool> is_on_border = internal::borders_of(surface);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Well-known surfaces {f = 0} as functors f for Analytic_function_traits_3, which can be called with any number type.
-// Parameters, and what is computed from them alone, are doubles, so that every number type evaluates the same function.
-// Intermediate results are `auto`, so that jets leave out the derivatives that are zero by structure.
+// Well-known surfaces {f = 0} as functors f for Analytic_function_traits_3, callable with any number type. Parameters
+// and expressions of parameters are doubles, so that every number type evaluates the same function. Intermediate
+// results are `auto`, so that jets omit derivatives that are zero by structure.
 #ifndef EQUIAFFINE_FORMULA_ANALYTIC_FUNCTIONS_H
 #define EQUIAFFINE_FORMULA_ANALYTIC_FUNCTIONS_H
 
@@ -17,22 +17,21 @@
 
 namespace equiaffine::internal {
 
-/// The box about the origin with the given half sides.
+/// The box centered at the origin with the given half sides.
 inline CGAL::Bbox_3 centered_box(double x, double y, double z) { return CGAL::Bbox_3(-x, -y, -z, x, y, z); }
 
-/// The cube about the origin with the given half side.
+/// The cube centered at the origin with the given half side.
 inline CGAL::Bbox_3 centered_cube(double half_side) { return centered_box(half_side, half_side, half_side); }
 
 } // namespace equiaffine::internal
 
 namespace equiaffine {
 
-/// Every struct has `f(x, y, z)` and `box()`. The box contains a closed surface with a margin, or the part of an
-/// unbounded surface that is worth looking at. Parameters are positive and have the unit of x, y, z unless said
-/// otherwise.
+/// Every struct has `f(x, y, z)` and `box()`. The box contains a closed surface with a margin, or an interesting part
+/// of an unbounded surface. Parameters are positive, in the unit of x, y, z unless noted otherwise.
 namespace analytic_functions {
 
-/// The square of a number. Jets and intervals have better functions of this name, found by argument-dependent lookup.
+/// The square of a number. Jets and intervals have better overloads, found by argument-dependent lookup.
 template <class T>
 auto square(const T& x) {
   return x * x;
@@ -62,15 +61,15 @@ struct Ellipsoid {
   CGAL::Bbox_3 box() const { return internal::centered_box(1.25 * a, 1.25 * b, 1.25 * c); } ///< the box to look at
 };
 
-/// z - (x^2 + y^2) / 2. K = H = J = 0: an improper affine sphere, whose affine normal is constant (Andrade, Lewiner
-/// 2012, figure 4).
+/// z - (x^2 + y^2) / 2. K = H = J = 0: an improper affine sphere with constant affine normal (Andrade, Lewiner 2012,
+/// figure 4).
 struct Elliptic_paraboloid {
   /// f(x, y, z).
   auto operator()(const auto& x, const auto& y, const auto& z) const { return z - (square(x) + square(y)) * 0.5; }
   CGAL::Bbox_3 box() const { return internal::centered_cube(1); } ///< the box to look at
 };
 
-/// z - (x^2 - y^2) / 2. K = H = J = 0, and the affine normal is constant, as for Elliptic_paraboloid.
+/// z - (x^2 - y^2) / 2. K = H = J = 0 and the affine normal is constant, like Elliptic_paraboloid.
 struct Hyperbolic_paraboloid {
   /// f(x, y, z).
   auto operator()(const auto& x, const auto& y, const auto& z) const { return z - (square(x) - square(y)) * 0.5; }
@@ -91,8 +90,8 @@ struct Hyperboloid_of_two_sheets {
   CGAL::Bbox_3 box() const { return internal::centered_cube(2); } ///< the box to look at
 };
 
-/// (sqrt(x^2 + y^2) - R)^2 + z^2 - r^2, not differentiable on the z axis. Andrade, Lewiner 2012, figure 11, with the
-/// radius r that is missing there.
+/// (sqrt(x^2 + y^2) - R)^2 + z^2 - r^2, not differentiable on the z-axis. Andrade, Lewiner 2012, figure 11, whose
+/// formula lacks r.
 struct Torus {
   double major_radius = 0.5, ///< R
       minor_radius = 0.2;    ///< r
@@ -133,7 +132,7 @@ struct Sine_surface {
   CGAL::Bbox_3 box() const { return CGAL::Bbox_3(-1.1, -1.1, -2, 1, 1.2, 2); } ///< the box to look at
 };
 
-/// x^4 - 5 x^2 + y^4 - 5 y^2 + z^4 - 5 z^2 + 11.8: one closed surface of genus 5. Banchoff: Computer graphics tools for
+/// x^4 - 5 x^2 + y^4 - 5 y^2 + z^4 - 5 z^2 + 11.8: a closed surface of genus 5. Banchoff: Computer graphics tools for
 /// rendering algebraic surfaces and for geometry of order, 1991.
 struct Tanglecube {
   /// f(x, y, z).
@@ -148,7 +147,7 @@ struct Tanglecube {
 };
 
 /// sin x cos y + sin y cos z + sin z cos x, close to the minimal surface of Schoen: Infinite periodic minimal surfaces
-/// without self-intersections, 1970. Period 2 pi; the box is one cell.
+/// without self-intersections, 1970. The period is 2 pi; the box is one period cell.
 struct Gyroid {
   /// f(x, y, z).
   auto operator()(const auto& x, const auto& y, const auto& z) const {
@@ -159,7 +158,7 @@ struct Gyroid {
   CGAL::Bbox_3 box() const { return internal::centered_cube(std::numbers::pi); } ///< the box to look at
 };
 
-/// 2 y (y^2 - 3 x^2) (1 - z^2) + (x^2 + y^2)^2 - (9 z^2 - 1) (1 - z^2): a closed surface of genus 2, and other sheets
+/// 2 y (y^2 - 3 x^2) (1 - z^2) + (x^2 + y^2)^2 - (9 z^2 - 1) (1 - z^2): a closed surface of genus 2, with other sheets
 /// outside the box. Palais: The visualization of mathematics, 1999.
 struct Genus_two {
   /// f(x, y, z).
@@ -172,7 +171,7 @@ struct Genus_two {
   CGAL::Bbox_3 box() const { return internal::centered_cube(2); } ///< the box to look at
 };
 
-/// The union of a ball of the given radius about the origin and a smaller one: min(|p|^2 - R^2, |p - c|^2 - r^2).
+/// The union of a ball of radius R centered at the origin and a smaller one: min(|p|^2 - R^2, |p - c|^2 - r^2).
 struct Two_spheres {
   double radius = 1;                              ///< R
   std::array<double, 3> center = {1.3, 0.2, 0.1}; ///< c
@@ -187,8 +186,8 @@ struct Two_spheres {
   CGAL::Bbox_3 box() const { return internal::centered_cube(2 * radius); } ///< the box to look at
 };
 
-/// t - sum of exp(-|p - c_i|^2 / s^2) over eight centers c_i: transcendental, positive outside, and without symmetry.
-/// `size` is s, and `threshold` is t, which has no unit. Blinn: A generalization of algebraic surface drawing, 1982.
+/// t - sum of exp(-|p - c_i|^2 / s^2) over eight centers c_i: transcendental, positive outside, without symmetry.
+/// Blinn: A generalization of algebraic surface drawing, 1982.
 struct Metaballs {
   /// The centers c_i.
   std::array<std::array<double, 3>, 8> centers = {{{-0.55, -0.45, -0.5},
@@ -200,7 +199,7 @@ struct Metaballs {
                                                    {-0.6, 0.55, 0.5},
                                                    {0.55, 0.6, 0.6}}};
   double size = 0.5;      ///< s
-  double threshold = 0.4; ///< t
+  double threshold = 0.4; ///< t, dimensionless
 
   /// f(x, y, z).
   auto operator()(const auto& x, const auto& y, const auto& z) const {
@@ -214,9 +213,9 @@ struct Metaballs {
   CGAL::Bbox_3 box() const { return internal::centered_cube(1.5); } ///< the box to look at
 };
 
-/// x^2 + y^2 + z^2 - 2 x y z - 1: Cayley's cubic with its four nodes at (1, 1, 1), (1, -1, -1), (-1, 1, -1) and
-/// (-1, -1, 1). The closed part between them bounds the 3 x 3 correlation matrices (Laurent, Poljak: On a positive
-/// semidefinite relaxation of the cut polytope, 1995).
+/// x^2 + y^2 + z^2 - 2 x y z - 1: Cayley's cubic, with four nodes at (1, 1, 1), (1, -1, -1), (-1, 1, -1) and (-1, -1,
+/// 1). The closed part between them bounds the 3 x 3 correlation matrices (Laurent, Poljak: On a positive semidefinite
+/// relaxation of the cut polytope, 1995).
 struct Cayley_cubic {
   /// f(x, y, z).
   auto operator()(const auto& x, const auto& y, const auto& z) const {
@@ -240,8 +239,8 @@ struct Chmutov_sextic {
 };
 
 /// 4 (g^2 x^2 - y^2) (g^2 y^2 - z^2) (g^2 z^2 - x^2) - (1 + 2 g) (x^2 + y^2 + z^2 - 1)^2 + c with the golden ratio g.
-/// If c = 0, the surface has 65 nodes, 15 of them at infinity; one is (1, 0, 0). A small c > 0 opens them and makes the
-/// surface smooth and connected. Barth: Two projective surfaces with many nodes, admitting the symmetries of the
+/// If c = 0, the surface has 65 nodes, 15 of them at infinity; one is (1, 0, 0). A small c > 0 opens them, which makes
+/// the surface smooth and connected. Barth: Two projective surfaces with many nodes, admitting the symmetries of the
 /// icosahedron, 1996.
 struct Barth_sextic {
   double c = 0; ///< the constant term

@@ -20,23 +20,22 @@
 
 namespace equiaffine {
 
-/// A model of FirstOrderBatchImplicitFunctionTraits_3 and, if the function takes Interval, of
-/// SecondOrderBoundedImplicitFunctionTraits_3, for a function given as code: `f(x, y, z)`, templated on its number
-/// type, const and callable from several threads.
+/// A function given as code: `f(x, y, z)`, a template of its number type, const and thread-safe. Models
+/// FirstOrderBatchImplicitFunctionTraits_3 and, if f accepts Interval, SecondOrderBoundedImplicitFunctionTraits_3.
 ///
 ///     struct Sphere {
 ///       template <class T> T operator()(const T& x, const T& y, const T& z) const { return x*x + y*y + z*z - 1.0; }
 ///     };
 ///     Analytic_function_traits_3<Kernel, Sphere> traits(Sphere(), CGAL::Bbox_3(-2, -2, -2, 2, 2, 2));
 ///
-/// f is called with FT, Interval and jets of both; Marching Cubes, max_distance_to_surface and compute_attributes call
-/// it with jets of Pack<FT>, too. Elementary functions must be found by argument-dependent lookup: `std::exp(x)` does
-/// not compile, since the standard library has no exponential of a jet; write `using std::exp; return exp(x);`. With
-/// three template parameters, or `auto`, for the arguments and `auto` for intermediate results it computes only the
-/// derivatives that its structure leaves nonzero.
+/// f is called with FT, Interval and jets of both; Marching Cubes, max_distance_to_surface and compute_attributes also
+/// call it with jets of Pack<FT>. Elementary functions must be found by argument-dependent lookup: write `using
+/// std::exp; return exp(x);`, since the standard library has no `std::exp(x)` for jets. If f has three template
+/// parameters, or `auto`, for its arguments and `auto` for intermediate results, it computes only derivatives that can
+/// be nonzero.
 ///
-/// Bounds are the whole line on a box where a comparison in f has no single answer. A function that cannot take
-/// Interval has no bounds if it has a constraint that excludes this type.
+/// If a comparison in f has no unique result on a box, the bounds are the whole real line. If f does not support
+/// Interval, exclude this type by a constraint; the model then has no bounds.
 template <class Kernel, class Function>
 class Analytic_function_traits_3 {
   static constexpr bool takes_intervals = internal::CallableWith<Function, Interval, Interval, Interval>;
@@ -45,18 +44,17 @@ public:
   using FT = typename Kernel::FT;             ///< the number type of the kernel
   using Point_3 = typename Kernel::Point_3;   ///< points of the kernel
   using Vector_3 = typename Kernel::Vector_3; ///< vectors of the kernel
-  static_assert(
-      !CGAL::Algebraic_structure_traits<FT>::Is_exact::value,
-      "the numbers of this kernel are exact, as those of Epeck: equiaffine works with floating-point numbers, "
-      "such as those of Epick and Simple_cartesian<double>");
+  static_assert(!CGAL::Algebraic_structure_traits<FT>::Is_exact::value,
+                "this kernel has exact numbers, like Epeck: use a kernel with floating-point numbers, such as Epick or "
+                "Simple_cartesian<double>");
 
-  /// The level set is sought in `box`. f may be called outside of it.
+  /// Algorithms search for the level set in `box`. f may be evaluated outside of it.
   Analytic_function_traits_3(Function function, const CGAL::Bbox_3& box) : function_(std::move(function)), box_(box) {}
 
   FT value(const Point_3& p) const { return function_(p.x(), p.y(), p.z()); } ///< f(x, y, z)
   /// The expansion of order 1, by automatic differentiation.
   Jet_3<FT, 1> first_order(const Point_3& p) const { return expand<1, FT>(function_, p.x(), p.y(), p.z()); }
-  /// The expansion of order 4, by `f.taylor(x, y, z)` if the function has that, else by automatic differentiation.
+  /// The expansion of order 4, by `f.taylor(x, y, z)` if it exists, otherwise by automatic differentiation.
   Jet_3<FT> taylor(const Point_3& p) const {
     if constexpr (internal::HasTaylor<Function, FT>) return function_.taylor(p.x(), p.y(), p.z());
     else return expand<4, FT>(function_, p.x(), p.y(), p.z());
@@ -68,12 +66,12 @@ public:
     return function_(Jet::variable(0, p.x()), Jet::variable(1, p.y()), Jet::variable(2, p.z()));
   }
 
-  /// values[i] becomes value(points[i]), by f(x, y, z, values) on spans if the function has that.
+  /// Sets values[i] to value(points[i]), by f(x, y, z, values) on spans if f supports it.
   void values(std::span<const Point_3> points, std::span<FT> values) const {
     internal::values_at<FT>(function_, points, values);
   }
 
-  /// jets[i] becomes first_order(points[i]), computed in packs unless a comparison differs between points.
+  /// Sets jets[i] to first_order(points[i]), computed in packs unless a comparison differs between points.
   void first_orders(std::span<const Point_3> points, std::span<Jet_3<FT, 1>> jets) const {
     if constexpr (std::is_floating_point_v<FT>) {
       try {
@@ -84,13 +82,13 @@ public:
     for (std::size_t i = 0; i < points.size(); ++i) jets[i] = first_order(points[i]);
   }
 
-  /// jets[i] becomes taylor(points[i]).
+  /// Sets jets[i] to taylor(points[i]).
   void taylors(std::span<const Point_3> points, std::span<Jet_3<FT>> jets) const {
     for (std::size_t i = 0; i < points.size(); ++i) jets[i] = taylor(points[i]);
   }
 
-  /// jets[n] becomes the expansion at the points x[n], y[n], z[n], one in each lane. A comparison in the function, such
-  /// as x < y, needs the same answer in all lanes of a pack. \throw Lanes_disagree when the answers differ
+  /// Sets jets[n] to the expansions at the points x[n], y[n], z[n], one per lane. Comparisons in f, such as x < y, must
+  /// have the same result in all lanes of a pack. \throw Lanes_disagree if they differ
   void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
                     std::span<Jet_3<Pack<FT>>> jets) const requires(std::is_floating_point_v<FT>) {
     if constexpr (internal::HasTaylor<Function, FT>) function_.taylor(x, y, z, jets);
@@ -98,7 +96,7 @@ public:
       for (std::size_t n = 0; n < jets.size(); ++n) jets[n] = expand<4, Pack<FT>>(function_, x[n], y[n], z[n]);
   }
 
-  /// Bounds of the value on a box: f of its sides as intervals.
+  /// Bounds of the value on a box: f in interval arithmetic.
   Interval bounds(const CGAL::Bbox_3& box) const requires takes_intervals {
     const auto [x, y, z] = internal::sides_of(box);
     try {
@@ -118,7 +116,7 @@ public:
     return expansion_bounds<2>(box);
   }
 
-  /// The model of the function that f.restricted(x, y, z) returns for the sides of a box, if it returns one.
+  /// The model of f.restricted(x, y, z) for the sides of a box, if that is not empty.
   std::optional<Analytic_function_traits_3>
   restricted(const CGAL::Bbox_3& box) const requires internal::HasRestriction<Function> && std::is_same_v<FT, double> {
     const auto [x, y, z] = internal::sides_of(box);
@@ -127,7 +125,7 @@ public:
     return Analytic_function_traits_3(*std::move(function), box_);
   }
 
-  CGAL::Bbox_3 bbox() const { return box_; }             ///< the box that the constructor was given
+  CGAL::Bbox_3 bbox() const { return box_; }             ///< the box passed to the constructor
   const Function& function() const { return function_; } ///< f
 
 private:
@@ -147,7 +145,7 @@ private:
   CGAL::Bbox_3 box_;
 };
 
-/// Returns the model for `function`, whose type is deduced: `make_analytic_traits<Kernel>(f, box)`.
+/// Returns the model for `function`, deducing its type: `make_analytic_traits<Kernel>(f, box)`.
 template <class Kernel, class Function>
 Analytic_function_traits_3<Kernel, Function> make_analytic_traits(Function function, const CGAL::Bbox_3& box) {
   return {std::move(function), box};

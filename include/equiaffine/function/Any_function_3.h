@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any_function_3 holds any model of ImplicitFunctionTraits_3 behind one type.
+// Any_function_3, a type-erased model of ImplicitFunctionTraits_3.
 #ifndef EQUIAFFINE_FUNCTION_ANY_FUNCTION_3_H
 #define EQUIAFFINE_FUNCTION_ANY_FUNCTION_3_H
 
@@ -20,7 +20,7 @@
 
 namespace equiaffine::internal {
 
-/// The members of a model that Any_function_3 calls.
+/// The interface of a model for Any_function_3.
 class Erased_function_3 {
 public:
   using Kernel = CGAL::Simple_cartesian<double>;
@@ -46,7 +46,7 @@ public:
   virtual Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa, double fb) const = 0;
 };
 
-/// Calls a model, with points and numbers of its own types.
+/// Implements the interface by a model, converting points and numbers.
 template <class Traits>
 class Erased_model_3 final : public Erased_function_3 {
 public:
@@ -130,7 +130,7 @@ private:
                              {vector(x), vector(y), vector(z)});
   }
 
-  /// Calls a batch member of the model, `evaluate_at`, which writes results of the model's own type.
+  /// Calls a batch member of the model; converts points and results if their types differ.
   template <class Own_result, class Result, class Evaluate>
   static void evaluate(Points points, std::span<Result> results, const Evaluate& evaluate_at) {
     if constexpr (std::is_same_v<typename Traits::Point_3, Point_3> && std::is_same_v<Own_result, Result>) {
@@ -152,10 +152,10 @@ private:
 
 namespace equiaffine {
 
-/// Holds any model of ImplicitFunctionTraits_3 behind one type, with its capabilities, so that code that is expensive
-/// to compile is compiled once. It is a model of FirstOrderBatchImplicitFunctionTraits_3 and of
-/// FirstOrderBoundedImplicitFunctionTraits_3 in doubles; known_bounds() says which bounds the held model has. Each call
-/// is a virtual one, also those for many points and for a root on a segment. Copies share the model.
+/// Holds any model of ImplicitFunctionTraits_3 with its capabilities behind one type, so that code that is slow to
+/// compile is compiled once. Models FirstOrderBatchImplicitFunctionTraits_3 and
+/// FirstOrderBoundedImplicitFunctionTraits_3 with doubles; known_bounds() returns which bounds the held model has. Each
+/// call is a virtual one, also for batches and for a root on a segment. Copies share the model.
 class Any_function_3 {
 public:
   using Kernel = CGAL::Simple_cartesian<double>; ///< the kernel
@@ -163,43 +163,43 @@ public:
   using Point_3 = Kernel::Point_3;               ///< points
   using Vector_3 = Kernel::Vector_3;             ///< vectors
 
-  /// Holds a model; one that is an Any_function_3 already is returned as it is.
+  /// Wraps a model. An Any_function_3 is returned unchanged.
   template <ImplicitFunctionTraits_3 Traits>
   static Any_function_3 make(Traits traits) {
     return Any_function_3(std::make_shared<internal::Erased_model_3<Traits>>(std::move(traits)));
   }
-  static Any_function_3 make(Any_function_3 function) { return function; } ///< returns it as it is
+  static Any_function_3 make(Any_function_3 function) { return function; } ///< returns `function`
 
   double value(const Point_3& p) const { return function_->value(p); }                       ///< f(p)
   Jet_3<double, 1> first_order(const Point_3& p) const { return function_->first_order(p); } ///< value and gradient
   Jet_3<double> taylor(const Point_3& p) const { return function_->taylor(p); } ///< the expansion of order 4
-  /// The expansion of order 5, if the held model has that.
+  /// The expansion of order 5, if the held model has one.
   std::optional<Jet_3<double, 5>> fifth_order(const Point_3& p) const { return function_->fifth_order(p); }
-  /// values[i] becomes value(points[i]).
+  /// Sets values[i] to value(points[i]).
   void values(std::span<const Point_3> points, std::span<double> values) const { function_->values(points, values); }
-  /// jets[i] becomes first_order(points[i]).
+  /// Sets jets[i] to first_order(points[i]).
   void first_orders(std::span<const Point_3> points, std::span<Jet_3<double, 1>> jets) const {
     function_->first_orders(points, jets);
   }
-  /// jets[i] becomes taylor(points[i]).
+  /// Sets jets[i] to taylor(points[i]).
   void taylors(std::span<const Point_3> points, std::span<Jet_3<double>> jets) const {
     function_->taylors(points, jets);
   }
-  /// Bounds of the value, the whole line if the held model has none.
+  /// Bounds of the value; the whole real line if the held model has none.
   Interval bounds(const CGAL::Bbox_3& box) const { return function_->bounds(box); }
-  /// Returns what the free function first_order_bounds() says of the held model.
+  /// first_order_bounds(model, box) of the held model.
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return function_->first_order_bounds(box); }
-  /// Returns what the free function tight_first_order_bounds() says of the held model.
+  /// tight_first_order_bounds(model, box) of the held model.
   Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const {
     return function_->tight_first_order_bounds(box);
   }
-  Known_bounds known_bounds() const { return function_->known_bounds(); }      ///< the bounds that the held model has
+  Known_bounds known_bounds() const { return function_->known_bounds(); }      ///< the bounds of the held model
   double rounding(const Point_3& p) const { return function_->rounding(p); }   ///< that of the held model, or 0
   double certainty(const Point_3& p) const { return function_->certainty(p); } ///< that of the held model, or 1
   CGAL::Bbox_3 bbox() const { return function_->bbox(); }                      ///< the box of the held model
-  /// The lattice of that size on which to sample the held model.
+  /// The lattice of the given size on which to sample the held model.
   Lattice_3<Kernel> lattice(const Lattice_3<Kernel>::Size& size) const { return function_->lattice(size); }
-  /// Finds a zero on the segment ab by one call of the held model.
+  /// Finds a zero on the segment ab, with one call of the held model.
   Surface_point_3<Kernel> intersect_segment(const Point_3& a, const Point_3& b, double fa, double fb) const {
     return function_->intersect_segment(a, b, fa, fb);
   }

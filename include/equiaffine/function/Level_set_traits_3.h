@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A model for the level set f = v of a model of f, with the side to which its normals point.
+// The level set f = v of a model of f, with a choice of orientation.
 #ifndef EQUIAFFINE_FUNCTION_LEVEL_SET_TRAITS_3_H
 #define EQUIAFFINE_FUNCTION_LEVEL_SET_TRAITS_3_H
 
@@ -21,10 +21,9 @@ enum class Orientation_of_level_set {
   AGAINST_GRADIENT ///< towards smaller values, for volumes that are bright inside
 };
 
-/// The function f - v, or v - f for AGAINST_GRADIENT, whose zero set is the level set f = v with the chosen
-/// orientation. It is a model of every refinement of the concept that the base is a model of, and has its capabilities.
-/// Reversing the orientation changes the sign of nu, xi, H, J, H_e and
-/// of the metric, and keeps K and K_e.
+/// The function f - v, or v - f for AGAINST_GRADIENT. Its zero set is the level set f = v with the chosen orientation.
+/// It models every refinement of the concept that the base models, and has the base's capabilities. Reversing the
+/// orientation changes the sign of nu, xi, H, J, H_e and of the metric, and preserves K and K_e.
 template <ImplicitFunctionTraits_3 Base>
 class Level_set_traits_3 {
 public:
@@ -32,43 +31,43 @@ public:
   using Point_3 = typename Base::Point_3;   ///< points of the base
   using Vector_3 = typename Base::Vector_3; ///< vectors of the base
 
-  /// The level set f = `isovalue` of the base, with normals on the given side.
+  /// The level set f = `isovalue` of the base, with the given orientation.
   Level_set_traits_3(Base base, const FT& isovalue,
                      Orientation_of_level_set orientation = Orientation_of_level_set::ALONG_GRADIENT)
       : base_(std::move(base)), isovalue_(isovalue),
         is_reversed_(orientation == Orientation_of_level_set::AGAINST_GRADIENT) {}
 
   FT value(const Point_3& p) const { return shifted(base_.value(p)); } ///< f(p) - v, or v - f(p)
-  /// The expansion of order 1, from that of the base.
+  /// The expansion of order 1, computed from the base.
   Jet_3<FT, 1> first_order(const Point_3& p) const requires FirstOrderImplicitFunctionTraits_3<Base> {
     return shifted(base_.first_order(p));
   }
-  /// The expansion of order 4, from that of the base.
+  /// The expansion of order 4, computed from the base.
   Jet_3<FT> taylor(const Point_3& p) const { return shifted(base_.taylor(p)); }
-  /// The expansion of order 5, from that of the base, if the base has one.
+  /// The expansion of order 5, computed from the base, if the base has one.
   std::optional<Jet_3<FT, 5>> fifth_order(const Point_3& p) const requires HasFifthOrder<Base> {
     const std::optional<Jet_3<FT, 5>> jet = base_.fifth_order(p);
     return jet ? std::optional(shifted(*jet)) : std::nullopt;
   }
-  /// values[i] becomes value(points[i]).
+  /// Sets values[i] to value(points[i]).
   void values(std::span<const Point_3> points,
               std::span<FT> values) const requires BatchImplicitFunctionTraits_3<Base> {
     base_.values(points, values);
     for (FT& value : values) value = shifted(value);
   }
-  /// jets[i] becomes first_order(points[i]).
+  /// Sets jets[i] to first_order(points[i]).
   void first_orders(std::span<const Point_3> points,
                     std::span<Jet_3<FT, 1>> jets) const requires FirstOrderBatchImplicitFunctionTraits_3<Base> {
     base_.first_orders(points, jets);
     for (auto& jet : jets) jet = shifted(jet);
   }
-  /// jets[i] becomes taylor(points[i]).
+  /// Sets jets[i] to taylor(points[i]).
   void taylors(std::span<const Point_3> points,
                std::span<Jet_3<FT>> jets) const requires BatchImplicitFunctionTraits_3<Base> {
     base_.taylors(points, jets);
     for (auto& jet : jets) jet = shifted(jet);
   }
-  /// jets[n] becomes the expansions at the points of the packs x[n], y[n], z[n].
+  /// Sets jets[n] to the expansions at the points of the packs x[n], y[n], z[n].
   void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
                     std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
     base_.taylor_packs(x, y, z, jets);
@@ -93,37 +92,38 @@ public:
   Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const requires HasTightFirstOrderBounds<Base> {
     return shifted_bounds(base_.tight_first_order_bounds(box));
   }
-  /// Returns which bounds the base has.
+  /// Which bounds the base has.
   Known_bounds known_bounds() const requires HasKnownBounds<Base> { return base_.known_bounds(); }
-  /// The same level set of the function that may replace the base in a box, if there is one.
+  /// The same level set of the cheaper function for a box, if the base has one.
   std::optional<Level_set_traits_3>
   restricted(const CGAL::Bbox_3& box) const requires RestrictableImplicitFunctionTraits_3<Base> {
     auto base = base_.restricted(box);
     return base ? std::optional(with_base(*std::move(base))) : std::nullopt;
   }
   FT rounding(const Point_3& p) const requires HasRounding<Base> { return base_.rounding(p); } ///< that of the base
-  /// Returns the certainty of the base at p.
+  /// The certainty of the base at p.
   double certainty(const Point_3& p) const requires HasCertainty<Base> { return base_.certainty(p); }
   CGAL::Bbox_3 bbox() const { return base_.bbox(); } ///< that of the base
 
-  /// Calls the base if this is the base itself: otherwise the base would look for zeros of another function.
+  /// Calls the base if v = 0 and the orientation is kept; otherwise the base would search for zeros of another
+  /// function.
   Surface_point_3<Kernel_of<Base>> intersect_segment(const Point_3& a, const Point_3& b, const FT& fa,
                                                      const FT& fb) const requires HasIntersectSegment<Base> {
     if (isovalue_ == FT(0) && !is_reversed_) return base_.intersect_segment(a, b, fa, fb);
     return internal::zero_on_segment<Kernel_of<Base>>(*this, a, b, fa, fb);
   }
-  /// The lattice of that size on which to sample the base.
+  /// The lattice of the given size on which to sample the base.
   Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
     return sampling_lattice(base_, size);
   }
 
   /// The lattice of the base.
   auto lattice() const requires LatticeImplicitFunctionTraits_3<Base> { return base_.lattice(); }
-  /// The sample of the base at node (i, j, k), as value() changes values.
+  /// The sample of the base at node (i, j, k), minus v and reversed like value().
   FT sample(std::size_t i, std::size_t j, std::size_t k) const requires LatticeImplicitFunctionTraits_3<Base> {
     return shifted(base_.sample(i, j, k));
   }
-  /// The samples of the base at the nodes of a block, as value() changes values.
+  /// The samples of the base at a block of nodes, minus v and reversed like value().
   void samples(const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& size,
                std::span<FT> out) const requires HasSamples<Base> {
     base_.samples(first, size, out);
@@ -148,7 +148,7 @@ private:
 
   FT shifted(const FT& value) const { return is_reversed_ ? isovalue_ - value : value - isovalue_; }
 
-  /// The value is rounded as that of a number is: v + (-f) has the bits of v - f.
+  /// Rounds like the overload for numbers: v + (-f) equals v - f bit for bit.
   template <class Number, int Order>
   Jet_3<Number, Order> shifted(Jet_3<Number, Order> jet) const {
     if (is_reversed_) jet = -jet;

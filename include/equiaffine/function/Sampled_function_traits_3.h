@@ -20,18 +20,18 @@
 
 namespace equiaffine {
 
-/// A volume as a function: values and expansions are those of the tensor product spline through its samples, and the
-/// signs at nodes are those of the samples. The convolution scheme smooths, so that the spline's value at a node
-/// differs from the sample there.
+/// A volume as a function: the tensor product spline through its samples gives values and expansions, and the samples
+/// give the signs at nodes. The convolution scheme smooths, so that the spline's value at a node differs from the
+/// sample there.
 ///
-/// A spline of degree n needs n + 1 nodes along each axis. Through fewer there is none: values off the nodes are NaN,
-/// points are OUTSIDE, and vertices of Marching Cubes stay at their linear positions, UNCONVERGED. Degree 5 needs 6
-/// nodes, 7, the default, needs 8.
+/// A spline of degree n needs n + 1 nodes along each axis: 8 for the default degree 7, and 6 for degree 5. With fewer
+/// nodes there is no spline: values off the nodes are NaN, points are OUTSIDE, and vertices of Marching Cubes stay at
+/// their linear positions, UNCONVERGED.
 ///
-/// This is a model of ImplicitFunctionTraits_3 with first-order bounds and expansions, with a lattice, and cell by
-/// cell: Marching Cubes and the attributes need the memory of the samples, in the type that they have, and that of a
-/// block of cells for each thread, while other algorithms need one more number per node (Spline_function_3). Copies
-/// share the immutable data.
+/// Models CellwiseImplicitFunctionTraits_3, FirstOrderImplicitFunctionTraits_3 and
+/// FirstOrderBoundedImplicitFunctionTraits_3. Marching Cubes and attributes need memory for the samples, in their own
+/// type, and for one block of cells per thread. Other algorithms need one more number per node (Spline_function_3).
+/// Copies share the immutable data.
 template <class Kernel>
 class Sampled_function_traits_3 {
 public:
@@ -39,16 +39,17 @@ public:
   using Point_3 = typename Kernel::Point_3;   ///< points of the kernel
   using Vector_3 = typename Kernel::Vector_3; ///< vectors of the kernel
 
-  /// Makes the spline that the options ask for. If they smooth the samples, `sample` returns smoothed ones. A Volume_3
-  /// is copied or moved, and a view of samples of any type only viewed. \throw Input_error for bad options
+  /// Creates the spline with the given options. If they include smoothing, `sample` returns smoothed samples. A
+  /// Volume_3 is copied or moved; a view of samples of any type is not copied. \throw Input_error if options are
+  /// invalid
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Sampled_function_traits_3(const Volume_view_3<Kernel>& volume, const Volume_options& options = {},
                                      ConcurrencyTag tag = {})
       : Sampled_function_traits_3(volume, options, Volume_part{volume.cells()}, tag) {}
 
-  /// Makes the same function, bit for bit, of a part of a volume: where all samples are known that it depends on, as
-  /// cells_to_know() says. \throw Input_error for bad options, and std::invalid_argument if that is nowhere, and for
-  /// interpolation, which needs all samples
+  /// Creates the same function, bit for bit, from a part of a volume, in the cells for which all needed samples are
+  /// known (see cells_to_know()). \throw Input_error if options are invalid. \throw std::invalid_argument if there are
+  /// no such cells, or for interpolation, which needs all samples
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Sampled_function_traits_3(const Volume_view_3<Kernel>& volume, const Volume_options& options, const Volume_part& part,
                             ConcurrencyTag tag = {})
@@ -61,18 +62,18 @@ public:
     rounding_ = std::make_shared<const Spline_rounding_3<Kernel>>(*spline_, smoothing, survey);
   }
 
-  /// Values and coefficients of expansions are NaN outside the support of the spline.
+  /// The value of the spline. Outside its support, values and coefficients of expansions are NaN.
   FT value(const Point_3& p) const { return spline_->value(p); }
   /// Value and gradient of the spline.
   Jet_3<FT, 1> first_order(const Point_3& p) const { return spline_->template taylor<1>(p); }
   Jet_3<FT> taylor(const Point_3& p) const { return spline_->taylor(p); } ///< the expansion of the spline
-  /// The expansion of the spline of order 5, which has jumps between cells if the degree is 5.
+  /// The expansion of order 5. It jumps between cells if the degree is 5.
   Jet_3<FT, 5> fifth_order(const Point_3& p) const { return spline_->template taylor<5>(p); }
   Interval bounds(const CGAL::Bbox_3& box) const { return spline_->bounds(box); } ///< see Spline_function_3::bounds()
   /// See Spline_function_3::first_order_bounds().
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const { return spline_->first_order_bounds(box); }
-  /// The greatest change of second derivatives at p by rounding. It includes the rounding of the samples around p to
-  /// float if all samples are floats, and is 0 outside the support of the spline.
+  /// The largest change of second derivatives at p by rounding. If all samples are floats, it includes the rounding of
+  /// the samples around p to float. It is 0 outside the support of the spline.
   FT rounding(const Point_3& p) const {
     const auto cell = spline_->cell_of(p);
     return cell ? (*rounding_)(*spline_, *cell) : FT(0);
@@ -83,7 +84,7 @@ public:
 
   /// The sample at node (i, j, k).
   FT sample(std::size_t i, std::size_t j, std::size_t k) const { return volume_(i, j, k); }
-  /// The samples at the nodes of a block of that size, i fastest.
+  /// The samples of the block of `size` nodes that starts at node `first`, i fastest.
   void samples(const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& size,
                std::span<FT> out) const {
     volume_.copy_block(first, size, out);
@@ -91,7 +92,7 @@ public:
 
   /// The cell of the lattice that contains p, if p is in the support of the spline.
   std::optional<std::array<std::size_t, 3>> cell_of(const Point_3& p) const { return spline_->cell_of(p); }
-  /// The same function, cheaper in memory if it is evaluated in these cells only: see
+  /// The same function, with less memory if it is only evaluated in these cells; see
   /// Spline_function_3::restricted_to_cells().
   Sampled_function_traits_3 restricted_to_cells(const Cell_block& cells) const {
     Sampled_function_traits_3 result = *this;

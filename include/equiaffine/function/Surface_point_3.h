@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Zeros of a function on segments: changes of sign, and the search for a zero between the ends of a segment.
+// Zeros of a function on segments: sign changes, and the search for a zero between the ends of a segment.
 #ifndef EQUIAFFINE_FUNCTION_SURFACE_POINT_3_H
 #define EQUIAFFINE_FUNCTION_SURFACE_POINT_3_H
 
@@ -16,22 +16,21 @@ namespace equiaffine {
 template <class Kernel>
 struct Surface_point_3 {
   typename Kernel::Point_3 point; ///< the zero
-  bool has_converged;             ///< if false, no zero was found, and `point` is the best guess
+  bool has_converged;             ///< if false, no zero was found and `point` is the best guess
   std::size_t evaluations;        ///< the number of evaluations of f with its gradient
-  bool is_at_pole = false;        ///< no zero was found since f changes its sign at a pole or a jump, which is `point`
-  bool is_at_end = false;         ///< no zero was found since f, or its derivatives, end beside `point`
+  bool is_at_pole = false;        ///< no zero was found: f changes sign at a pole or jump, at `point`
+  bool is_at_end = false;         ///< no zero was found: f or its derivatives become undefined at `point`
 };
 
 /// \cond for internal use
-/// Whether the values of a function at the ends of a segment have different signs, where a value of zero counts as
-/// positive; false if one of them is NaN.
+/// Whether the values at the ends of a segment have different signs. Zero counts as positive. False if a value is NaN.
 template <class FT>
 bool is_sign_change(const FT& first, const FT& second) {
   return (first < FT(0) && second >= FT(0)) || (first >= FT(0) && second < FT(0));
 }
 
-/// Returns the place where the linear interpolant of the values at the ends of a segment is zero, as a fraction of the
-/// segment; it is halfway if the values are infinite. \pre `is_sign_change(first, second)`
+/// The zero of the linear interpolant of the values at the ends of a segment, as a fraction of the segment; 1/2 if a
+/// value is infinite. \pre `is_sign_change(first, second)`
 template <class FT>
 FT linear_zero(const FT& first, const FT& second) {
   const FT t = first / (first - second);
@@ -43,7 +42,7 @@ FT linear_zero(const FT& first, const FT& second) {
 
 namespace equiaffine::internal {
 
-/// A sign change of f on the segment ab, and what a root finder may conclude from a value near it.
+/// A sign change of f on the segment ab, with criteria for values near a zero.
 template <class Kernel>
 struct Bracket_3 {
   using FT = typename Kernel::FT;
@@ -56,17 +55,17 @@ struct Bracket_3 {
     const FT magnitude = std::max({abs(a.x()), abs(a.y()), abs(a.z()), length});
     tolerance = FT(2) * std::numeric_limits<FT>::epsilon() * magnitude / length;
     const FT smaller_end = std::min(abs(fa), abs(fb)), larger_end = std::max(abs(fa), abs(fb));
-    smaller_than_ends = (FT(1) - FT(1e-6)) * smaller_end; // by more than rounding, which changes values beside a jump
+    smaller_than_ends = (FT(1) - FT(1e-6)) * smaller_end; // clearly smaller: near a jump values differ by rounding
     negligible = FT(1e-6) * (larger_end - larger_end == FT(0) ? larger_end : smaller_end);
   }
 
-  /// A pole has no such value, and few jumps have.
+  /// Holds for zeros, never for poles, and rarely for jumps.
   bool is_plausible(const FT& value) const {
     using std::abs;
     return abs(value) < smaller_than_ends || is_negligible(value);
   }
 
-  /// No jump has such a value, except a tiny one.
+  /// Holds for zeros, and for jumps only if they are tiny.
   bool is_negligible(const FT& value) const {
     using std::abs;
     return abs(value) <= negligible;
@@ -81,13 +80,13 @@ struct Bracket_3 {
   typename Kernel::Point_3 a;
   typename Kernel::Vector_3 direction;
   FT fa, fb;
-  FT tolerance; // of fractions of the segment
+  FT tolerance; // as a fraction of the segment
   FT smaller_than_ends, negligible;
 };
 
-/// Whether f has a pole where a search that has not converged has narrowed a change of sign: towards that point |f|
-/// grows, from 3e5 times the tolerance to the tolerance, at least by a tenth per factor of 256. A logarithm grows more;
-/// at a jump |f| has limits on both sides.
+/// Whether f has a pole at p, to which a search that has not converged has narrowed a sign change. The criterion: from
+/// a distance of 2.6e5 tolerances to one of 4, |f| grows by at least a tenth per factor of 256. A logarithm grows
+/// faster; at a jump |f| has limits on both sides.
 template <class Kernel, class Traits>
 bool is_pole(const Traits& traits, const Bracket_3<Kernel>& bracket, const typename Kernel::Point_3& p) {
   using FT = typename Kernel::FT;
@@ -99,13 +98,13 @@ bool is_pole(const Traits& traits, const Bracket_3<Kernel>& bracket, const typen
   FT nearer = std::numeric_limits<FT>::infinity(), distance = FT(4) * bracket.tolerance;
   for (int n = 0; n < 3; ++n, distance *= FT(256)) {
     const FT here = std::max(magnitude(distance), magnitude(-distance));
-    if (!(nearer - nearer != FT(0) || nearer > FT(1.1) * here)) return false; // the farther ones may overflow, too
+    if (!(nearer - nearer != FT(0) || nearer > FT(1.1) * here)) return false; // farther values may overflow, too
     nearer = here;
   }
   return true;
 }
 
-/// Whether f jumps where a search has narrowed a change of sign: it has limits on both sides, of different signs.
+/// Whether f jumps at p, to which a search has narrowed a sign change: f has one-sided limits of different signs.
 template <class Kernel, class Traits>
 bool is_jump(const Traits& traits, const Bracket_3<Kernel>& bracket, const typename Kernel::Point_3& p) {
   using FT = typename Kernel::FT;
@@ -117,7 +116,7 @@ bool is_jump(const Traits& traits, const Bracket_3<Kernel>& bracket, const typen
          abs(value(-far) - left) + abs(value(far) - right) < FT(0.01) * abs(right - left);
 }
 
-/// Whether f, or its derivatives if these are asked for, end beside the point where a search has ended without a zero.
+/// Whether f, or its gradient if the model has cheap ones, is undefined next to the point where a search ended.
 template <class Kernel, class Traits>
 bool is_end_of_domain(const Traits& traits, const Bracket_3<Kernel>& bracket, const typename Kernel::Point_3& p) {
   using FT = typename Kernel::FT;
@@ -132,10 +131,10 @@ bool is_end_of_domain(const Traits& traits, const Bracket_3<Kernel>& bracket, co
   return is_undefined(distance) || is_undefined(-distance);
 }
 
-/// A search by Newton's method on the restriction of f. Bisection keeps it within the bracket whenever a step would
-/// leave it or not halve the last one (Press et al., Numerical Recipes, 2007, section 9.4), or where f has a value and
-/// no derivatives: beside such places f may jump, and only a step of Newton's method tells a zero. The caller expands f
-/// at the points that the search asks for, so that many searches can be expanded together.
+/// Newton's method on the restriction of f to a segment. It bisects if a step would leave the bracket or is not less
+/// than half of the last step (Press et al., Numerical Recipes, 2007, section 9.4), and where f has a value but no
+/// derivatives: f may jump near such places, and only a Newton step can confirm a zero. The caller expands f at the
+/// requested points, so that many searches can be expanded together.
 template <class Kernel>
 class Newton_search_3 {
   using FT = typename Kernel::FT;
@@ -146,17 +145,17 @@ public:
 
   const Bracket_3<Kernel>& bracket() const { return bracket_; }
 
-  /// Returns the point where the expansion is needed next and, once the search has ended, the zero or the best guess.
+  /// The point at which the next expansion is needed; after the end of the search, the zero or the best guess.
   typename Kernel::Point_3 point() const { return bracket_.a + t_ * bracket_.direction; }
 
   bool has_ended() const { return has_ended_; }
 
   Surface_point_3<Kernel> result() const { return bracket_.point(t_, has_converged_, evaluations_); }
 
-  /// Returns whether the zero that was found may be a jump.
+  /// Whether the zero that was found may be a jump.
   bool is_doubtful() const { return !bracket_.is_negligible(last_value_); }
 
-  /// Takes the expansion at point().
+  /// Continues with the expansion at point().
   template <class Traits>
   void advance(const Traits& traits, const Jet_3<FT, 1>& jet) {
     using std::abs;
@@ -193,9 +192,9 @@ private:
   bool is_smooth_ = true, has_converged_ = false, has_ended_ = false;
 };
 
-/// Searches by inverse quadratic interpolation where it is safe, else by bisection (Chandrupatla, A new hybrid
-/// quadratic/bisection algorithm for finding the zero of a nonlinear function without using derivatives, 1997), and
-/// sets whether the zero that is found may be a jump.
+/// Searches by inverse quadratic interpolation where it is safe, otherwise by bisection (Chandrupatla, A new hybrid
+/// quadratic/bisection algorithm for finding the zero of a nonlinear function without using derivatives, 1997).
+/// `is_doubtful` is set to whether the zero that was found may be a jump.
 template <class Kernel, class Traits>
 Surface_point_3<Kernel> chandrupatla(const Traits& traits, const Bracket_3<Kernel>& bracket, bool& is_doubtful) {
   using FT = typename Kernel::FT;
@@ -228,10 +227,11 @@ Surface_point_3<Kernel> chandrupatla(const Traits& traits, const Bracket_3<Kerne
   return bracket.point(x1, false, bracket.maximal_evaluations);
 }
 
-/// Says why a search along a bracket has found no zero, if it has not. A zero that is doubtful and a jump is none.
+/// Classifies a failed search: pole or jump, end of the domain, or neither. A doubtful zero at a jump is a failure,
+/// too.
 template <class Kernel, class Traits>
-void explain(const Traits& traits, const Bracket_3<Kernel>& bracket, bool is_doubtful,
-             Surface_point_3<Kernel>& result) {
+void classify_failure(const Traits& traits, const Bracket_3<Kernel>& bracket, bool is_doubtful,
+                      Surface_point_3<Kernel>& result) {
   if (result.has_converged && !(is_doubtful && is_jump(traits, bracket, result.point))) return;
   result.has_converged = false;
   result.is_at_pole = is_pole(traits, bracket, result.point);
@@ -239,7 +239,7 @@ void explain(const Traits& traits, const Bracket_3<Kernel>& bracket, bool is_dou
   result.is_at_pole = result.is_at_pole || (!result.is_at_end && is_jump(traits, bracket, result.point));
 }
 
-/// Finds a zero on the segment ab by the values of f and its derivatives, if the model has cheap ones.
+/// Finds a zero on the segment ab, with derivatives if the model has cheap ones.
 template <class Kernel, class Traits>
 Surface_point_3<Kernel> zero_on_segment(const Traits& traits, const typename Kernel::Point_3& a,
                                         const typename Kernel::Point_3& b, const typename Kernel::FT& fa,
@@ -256,7 +256,7 @@ Surface_point_3<Kernel> zero_on_segment(const Traits& traits, const typename Ker
       return chandrupatla(traits, bracket, is_doubtful);
     }
   }();
-  explain(traits, bracket, is_doubtful, result);
+  classify_failure(traits, bracket, is_doubtful, result);
   return result;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The function f o A^-1, whose level sets are the images under an affine map A of the level sets of f.
+// The function f o A^-1, whose level sets are the images of the level sets of f under an affine map A.
 #ifndef EQUIAFFINE_FUNCTION_TRANSFORMED_FUNCTION_TRAITS_3_H
 #define EQUIAFFINE_FUNCTION_TRANSFORMED_FUNCTION_TRAITS_3_H
 
@@ -24,8 +24,8 @@
 
 namespace equiaffine::internal {
 
-/// `sum` and the products of the coordinates, as if added in twice the precision (Ogita, Rump, Oishi: Accurate sum and
-/// dot product, 2005).
+/// `sum` plus the dot product of x and y, computed as in twice the precision (Ogita, Rump, Oishi: Accurate sum and dot
+/// product, 2005).
 template <class FT>
 FT sum_of_products(FT sum, const std::array<FT, 3>& x, const std::array<FT, 3>& y) {
   FT error(0);
@@ -37,9 +37,9 @@ FT sum_of_products(FT sum, const std::array<FT, 3>& x, const std::array<FT, 3>& 
   return sum + error;
 }
 
-/// The inverse of an affine map. That of CGAL has errors of the condition of the map or more, which its use multiplies
-/// by the condition again. A step of Newton's method squares them, beside what they would be at best. Not finite where
-/// there is no inverse.
+/// The inverse of an affine map. CGAL's inverse has errors of the order of the condition number or more, and applying
+/// it multiplies them by the condition number again. One step of Newton's method squares these errors, up to rounding.
+/// Not finite if there is no inverse.
 template <class Kernel>
 CGAL::Aff_transformation_3<Kernel> inverse_map(const CGAL::Aff_transformation_3<Kernel>& map) {
   using FT = typename Kernel::FT;
@@ -62,7 +62,7 @@ CGAL::Aff_transformation_3<Kernel> inverse_map(const CGAL::Aff_transformation_3<
       x[i] = {columns[0][i], columns[1][i], columns[2][i]};
       t[i] = sum_of_products(FT(0), x[i], negative(translation));
       for (const FT number : {x[i][0], x[i][1], x[i][2], t[i]})
-        if (!std::isfinite(number)) return inverse; // products left the range
+        if (!std::isfinite(number)) return inverse; // overflow
     }
     return {x[0][0], x[0][1], x[0][2], t[0], x[1][0], x[1][1], x[1][2], t[1], x[2][0], x[2][1], x[2][2], t[2]};
   }
@@ -73,9 +73,9 @@ CGAL::Aff_transformation_3<Kernel> inverse_map(const CGAL::Aff_transformation_3<
 
 namespace equiaffine {
 
-/// The function f o A^-1, whose level sets are the images under A of the level sets of f. A is any invertible affine
-/// map. The function is a model of every refinement of the concept that the base is a model of, and has its
-/// capabilities. Under the identity, the default, it is the base itself, bit for bit and at the same cost.
+/// The function f o A^-1 for any invertible affine map A. Its level sets are the images of the level sets of f under A.
+/// The function models every refinement of the concept that the base models, and has the base's capabilities. Under the
+/// identity, the default, it equals the base bit for bit, at the same cost.
 ///
 /// With a = |det A| the affine curvatures change by K' = K / a, H' = H / sqrt(a), J' = J / sqrt(a), the co-normal by
 /// nu' = sqrt(a) A^-T nu and the affine normal by xi' = A xi / sqrt(a).
@@ -93,32 +93,32 @@ public:
       : Transformed_function_traits_3(std::move(base), std::make_shared<const Map>(map)) {}
 
   FT value(const Point_3& p) const { return base_.value(preimage(p)); } ///< f(A^-1 p)
-  /// The expansion of order 1, from that of the base at the preimage.
+  /// The expansion of order 1, computed from the base at the preimage.
   Jet_3<FT, 1> first_order(const Point_3& p) const requires FirstOrderImplicitFunctionTraits_3<Base> {
     return substituted(base_.first_order(preimage(p)));
   }
-  /// The expansion of order 4, from that of the base at the preimage.
+  /// The expansion of order 4, computed from the base at the preimage.
   Jet_3<FT> taylor(const Point_3& p) const { return substituted(base_.taylor(preimage(p))); }
-  /// The expansion of order 5, from that of the base at the preimage, if the base has one.
+  /// The expansion of order 5, computed from the base at the preimage, if the base has one.
   std::optional<Jet_3<FT, 5>> fifth_order(const Point_3& p) const requires HasFifthOrder<Base> {
     const std::optional<Jet_3<FT, 5>> jet = base_.fifth_order(preimage(p));
     return jet ? std::optional(substituted(*jet)) : std::nullopt;
   }
 
-  /// values[i] becomes value(points[i]).
+  /// Sets values[i] to value(points[i]).
   void values(std::span<const Point_3> points,
               std::span<FT> values) const requires BatchImplicitFunctionTraits_3<Base> {
     if (map_->is_identity) return base_.values(points, values);
     base_.values(preimages(points), values);
   }
-  /// jets[i] becomes first_order(points[i]).
+  /// Sets jets[i] to first_order(points[i]).
   void first_orders(std::span<const Point_3> points,
                     std::span<Jet_3<FT, 1>> jets) const requires FirstOrderBatchImplicitFunctionTraits_3<Base> {
     if (map_->is_identity) return base_.first_orders(points, jets);
     base_.first_orders(preimages(points), jets);
     for (auto& jet : jets) jet = map_->substitution(jet);
   }
-  /// jets[i] becomes taylor(points[i]).
+  /// Sets jets[i] to taylor(points[i]).
   void taylors(std::span<const Point_3> points,
                std::span<Jet_3<FT>> jets) const requires BatchImplicitFunctionTraits_3<Base> {
     if (map_->is_identity) return base_.taylors(points, jets);
@@ -126,7 +126,7 @@ public:
     for (auto& jet : jets) jet = map_->substitution(jet);
   }
 
-  /// jets[n] becomes the expansions at the points of the packs x[n], y[n], z[n].
+  /// Sets jets[n] to the expansions at the points of the packs x[n], y[n], z[n].
   void taylor_packs(std::span<const Pack<FT>> x, std::span<const Pack<FT>> y, std::span<const Pack<FT>> z,
                     std::span<Jet_3<Pack<FT>>> jets) const requires PackImplicitFunctionTraits_3<Base> {
     if (map_->is_identity) return base_.taylor_packs(x, y, z, jets);
@@ -140,37 +140,36 @@ public:
     for (auto& jet : jets) jet = map_->substitution(jet);
   }
 
-  /// The bounds of the base on the axis-parallel box around the preimage of `box`.
+  /// The bounds of the base on the bounding box of the preimage of `box`.
   Interval bounds(const CGAL::Bbox_3& box) const requires BoundedImplicitFunctionTraits_3<Base> {
     return base_.bounds(preimage(box));
   }
-  /// Bounds of value and gradient, from those of the base on the box around the preimage.
+  /// Bounds of value and gradient, from those of the base on the bounding box of the preimage.
   Jet_3<Interval, 1>
   first_order_bounds(const CGAL::Bbox_3& box) const requires FirstOrderBoundedImplicitFunctionTraits_3<Base> {
     return substituted(base_.first_order_bounds(preimage(box)));
   }
-  /// Bounds of the expansion of order 2, from those of the base on the box around the preimage.
+  /// Bounds of the expansion of order 2, from those of the base on the bounding box of the preimage.
   Jet_3<Interval, 2>
   second_order_bounds(const CGAL::Bbox_3& box) const requires SecondOrderBoundedImplicitFunctionTraits_3<Base> {
     return substituted(base_.second_order_bounds(preimage(box)));
   }
-  /// The tighter bounds of value and gradient, from those of the base on the box around the preimage.
+  /// The tighter bounds of value and gradient, from those of the base on the bounding box of the preimage.
   Jet_3<Interval, 1> tight_first_order_bounds(const CGAL::Bbox_3& box) const requires HasTightFirstOrderBounds<Base> {
     return substituted(base_.tight_first_order_bounds(preimage(box)));
   }
-  /// Returns which bounds the base has.
+  /// Which bounds the base has.
   Known_bounds known_bounds() const requires HasKnownBounds<Base> { return base_.known_bounds(); }
 
-  /// The image of the function that may replace the base in the box around the preimage, if there is one.
+  /// The image of the cheaper function for the bounding box of the preimage of `box`, if the base has one.
   std::optional<Transformed_function_traits_3>
   restricted(const CGAL::Bbox_3& box) const requires RestrictableImplicitFunctionTraits_3<Base> {
     auto base = base_.restricted(preimage(box));
     return base ? std::optional(Transformed_function_traits_3(*std::move(base), map_)) : std::nullopt;
   }
 
-  /// The rounding of the base times the square of the greatest sum of magnitudes in a column of A^-1: by the chain rule
-  /// a second derivative is a sum of second derivatives of the base, each times one entry of A^-1 from the column of
-  /// either variable.
+  /// The rounding of the base times the square of the largest absolute column sum of A^-1: by the chain rule, a second
+  /// derivative is a sum of second derivatives of the base, each times one entry of A^-1 for either variable.
   FT rounding(const Point_3& p) const requires HasRounding<Base> {
     FT greatest_sum(0);
     for (int column = 0; column < 3; ++column) {
@@ -182,10 +181,10 @@ public:
     return base_.rounding(preimage(p)) * greatest_sum * greatest_sum;
   }
 
-  /// Affine maps keep the certainty.
+  /// The certainty of the base, which affine maps preserve.
   double certainty(const Point_3& p) const requires HasCertainty<Base> { return base_.certainty(preimage(p)); }
 
-  /// Finds a zero on the segment ab by the base, on the preimage of the segment.
+  /// Finds a zero on the segment ab by calling the base for the preimage of the segment.
   Surface_point_3<Kernel_of<Base>> intersect_segment(const Point_3& a, const Point_3& b, const FT& fa,
                                                      const FT& fb) const requires HasIntersectSegment<Base> {
     auto found = base_.intersect_segment(preimage(a), preimage(b), fa, fb);
@@ -193,12 +192,12 @@ public:
     return found;
   }
 
-  /// The axis-parallel box around the image of the base's box.
+  /// The bounding box of the image of the base's box.
   CGAL::Bbox_3 bbox() const {
     return map_->is_identity ? base_.bbox() : Lattice({2, 2, 2}, base_.bbox()).transform(map_->map).bbox();
   }
 
-  /// The image of the lattice on which the base would be sampled. It fills exactly the image of the base's box.
+  /// The image of the lattice on which the base would be sampled. It covers exactly the image of the base's box.
   Lattice_3<Kernel_of<Base>> lattice(const typename Lattice_3<Kernel_of<Base>>::Size& size) const {
     return transformed(sampling_lattice(base_, size));
   }
@@ -211,7 +210,7 @@ public:
   FT sample(std::size_t i, std::size_t j, std::size_t k) const requires LatticeImplicitFunctionTraits_3<Base> {
     return base_.sample(i, j, k);
   }
-  /// The samples of the base at the nodes of a block.
+  /// The samples of the base at a block of nodes.
   void samples(const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& size,
                std::span<FT> out) const requires HasSamples<Base> {
     base_.samples(first, size, out);
@@ -232,8 +231,8 @@ public:
 private:
   using Lattice = Lattice_3<Kernel_of<Base>>;
 
-  /// The map with what is computed from it. Copies of the function share it: CGAL counts the references to a map in a
-  /// way that threads must not do at once.
+  /// The map with everything computed from it, shared by copies of the function. CGAL's reference counting of maps is
+  /// not thread-safe.
   struct Map {
     explicit Map(const Aff_transformation_3& m)
         : map(m), inverse(internal::inverse_map(m)), is_identity(equals_identity(m)),
@@ -242,8 +241,8 @@ private:
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 4; ++j)
           check_argument(inverse.m(i, j) - inverse.m(i, j) == FT(0), // neither infinite nor NaN
-                         "an affine map of a function has no inverse: give one whose determinant is not 0, and whose "
-                         "coefficients are finite");
+                         "the affine map of a function has no inverse: use a map with finite coefficients and a "
+                         "nonzero determinant");
     }
 
     Aff_transformation_3 map, inverse;
@@ -268,7 +267,7 @@ private:
 
   Point_3 preimage(const Point_3& p) const { return map_->is_identity ? p : map_->inverse(p); }
 
-  /// The expansion of the function from that of the base at the preimage.
+  /// The expansion of this function, given that of the base at the preimage.
   template <int Order>
   Jet_3<FT, Order> substituted(const Jet_3<FT, Order>& jet) const {
     return map_->is_identity ? jet : map_->substitution(jet);
@@ -285,7 +284,7 @@ private:
     return result;
   }
 
-  /// The coordinates of the preimages of the points (x[i], y[i], z[i]), lane by lane.
+  /// The preimages of the points (x[i], y[i], z[i]), lane by lane.
   std::array<Pack<FT>, 3> preimage_of_lanes(const Pack<FT>& x, const Pack<FT>& y, const Pack<FT>& z) const {
     std::array<std::array<FT, Pack<FT>::size>, 3> lanes;
     for (std::size_t i = 0; i < Pack<FT>::size; ++i) {
@@ -298,7 +297,7 @@ private:
     return {pack_of(0), pack_of(1), pack_of(2)};
   }
 
-  /// The axis-parallel box around the preimage of a box.
+  /// The bounding box of the preimage of a box.
   CGAL::Bbox_3 preimage(const CGAL::Bbox_3& box) const {
     if (map_->is_identity) return box;
     const std::array<Interval, 3> sides = internal::sides_of(box);

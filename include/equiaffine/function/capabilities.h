@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A model of ImplicitFunctionTraits_3 may do some things better than others can do for it. Each capability is an
-// optional member of the model and a free function, which calls the member or, where there is none, falls back on what
-// every model has. They have the same name, but for the member `lattice(size)` of sampling_lattice(). The wrappers
-// Level_set_traits_3, Transformed_function_traits_3, Any_function_3 and, below, Batch_function_traits_3 have the
-// capabilities of what they wrap. doc/concepts/capabilities.md says what each promises, and what happens without the
-// member; test/support/conformance.h checks it for every model and wrapper.
+// Optional members of models of ImplicitFunctionTraits_3. For each there is a free function that calls the member or,
+// if the model lacks it, falls back on members that every model has. Both have the same name, except that
+// sampling_lattice() calls the member `lattice(size)`. The wrappers Level_set_traits_3, Transformed_function_traits_3,
+// Any_function_3 and, below, Batch_function_traits_3 have the capabilities of what they wrap.
+// doc/concepts/capabilities.md documents the semantics of each; test/support/conformance.h checks every model and
+// wrapper.
 #ifndef EQUIAFFINE_FUNCTION_CAPABILITIES_H
 #define EQUIAFFINE_FUNCTION_CAPABILITIES_H
 
@@ -28,7 +28,7 @@ namespace equiaffine::internal {
 
 // Boxes as intervals, and bounds on them.
 
-/// The intervals of x, y and z over a box.
+/// The ranges of x, y and z in a box.
 inline std::array<Interval, 3> sides_of(const CGAL::Bbox_3& box) {
   return {Interval(box.xmin(), box.xmax()), Interval(box.ymin(), box.ymax()), Interval(box.zmin(), box.zmax())};
 }
@@ -37,19 +37,19 @@ inline std::array<double, 3> center_of(const CGAL::Bbox_3& box) {
   return {(box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2};
 }
 
-/// The box that contains the point only.
+/// The box that contains only the point.
 inline CGAL::Bbox_3 box_of_point(const std::array<double, 3>& p) {
   return CGAL::Bbox_3(p[0], p[1], p[2], p[0], p[1], p[2]);
 }
 
-/// The intervals of the vectors from the center to the points of a box.
+/// The ranges of the vectors from the center to the points of a box.
 inline std::array<Interval, 3> offset_from_center(const CGAL::Bbox_3& box, const std::array<double, 3>& center) {
   std::array<Interval, 3> offset = sides_of(box);
   for (std::size_t axis = 0; axis < 3; ++axis) offset[axis] = offset[axis] - Interval(center[axis]);
   return offset;
 }
 
-/// The index of the monomial that is the product of two coordinates.
+/// The index of the monomial x_a x_b.
 inline std::size_t index_of_product(std::size_t axis, std::size_t other_axis) {
   std::array<int, 3> exponents = {};
   ++exponents[axis];
@@ -57,10 +57,10 @@ inline std::size_t index_of_product(std::size_t axis, std::size_t other_axis) {
   return std::size_t(monomial_index(exponents[0], exponents[1], exponents[2]));
 }
 
-/// Bounds of value and gradient on a box by the mean value theorem: f lies in f(c) + sum of f_a offset_a, and its
-/// derivative f_a along axis a lies in f_a(c) + sum of f_ab offset_b. Here c is a point of the box, `at_point` has the
-/// bounds at c, `on_box` has the bounds on the box, and `offset` the vectors from c to the points of the box. The
-/// result is the intersection of these bounds with those in `on_box`.
+/// Bounds of value and gradient on a box by the mean value theorem: for a point c of the box, f lies in f(c) + sum of
+/// f_a offset_a, and its derivative f_a along axis a lies in f_a(c) + sum of f_ab offset_b. `at_point` has the bounds
+/// at c, `on_box` those on the box, and `offset` is the range of vectors from c to points of the box. The result is
+/// intersected with `on_box`.
 inline Jet_3<Interval, 1> mean_value_bounds(const Jet_3<Interval, 2>& on_box, const Jet_3<Interval, 1>& at_point,
                                             const std::array<Interval, 3>& offset) {
   const auto& derivatives = on_box.coefficients();
@@ -81,57 +81,56 @@ namespace equiaffine {
 
 // clang-format off
 
-/// A model chooses the lattices on which it is sampled, such as those that fill the image of a box.
+/// A model that chooses the lattices on which it is sampled, for example to cover the image of a box.
 /// See \ref concept_capabilities.
 template <class Traits>
 concept HasSamplingLattice = requires(const Traits& traits, const typename Lattice_3<Kernel_of<Traits>>::Size& size) {
   { traits.lattice(size) } -> std::convertible_to<Lattice_3<Kernel_of<Traits>>>;
 };
 
-/// A model has bounds of value and gradient that are tighter than its `first_order_bounds`, at a higher cost.
+/// A model with bounds of value and gradient that are tighter than its `first_order_bounds`, at a higher cost.
 /// See \ref concept_capabilities.
 template <class Traits>
 concept HasTightFirstOrderBounds = requires(const Traits& traits, const CGAL::Bbox_3& box) {
   { traits.tight_first_order_bounds(box) } -> std::same_as<Jet_3<Interval, 1>>;
 };
 
-/// Which bounds a model has. They are tight in small boxes if their excess over the range shrinks with the square of
-/// the box's size.
+/// The kinds of bounds that a model has. Bounds are tight in small boxes if their excess over the range decreases with
+/// the square of the box's size.
 struct Known_bounds {
-  bool have_gradients,          ///< value and gradient have bounds, not the value alone
-      are_tight_in_small_boxes; ///< as said above
+  bool have_gradients,          ///< bounds of value and gradient, not only of the value
+      are_tight_in_small_boxes; ///< see above
 };
 
-/// A model learns at run time which bounds it has, as one that holds another one of any type.
+/// A model that determines at run time which bounds it has, such as Any_function_3.
 /// See \ref concept_capabilities.
 template <class Traits>
 concept HasKnownBounds = requires(const Traits& traits) {
   { traits.known_bounds() } -> std::same_as<Known_bounds>;
 };
 
-/// A model has the derivatives of order 5, too, which the gradients of affine curvatures need.
+/// A model with derivatives of order 5, which the gradients of affine curvatures need.
 /// See \ref concept_capabilities.
 template <class Traits>
 concept HasFifthOrder = requires(const Traits& traits, const typename Traits::Point_3& p) {
   { traits.fifth_order(p) } -> std::convertible_to<std::optional<Jet_3<typename Traits::FT, 5>>>;
 };
 
-/// A model tells how large the errors of its second derivatives are, because these are larger than roundings of the
-/// derivatives, as for a spline.
-/// See \ref concept_capabilities.
+/// A model whose second derivatives can have errors larger than their own rounding, as those of a spline, and that
+/// bounds these errors. See \ref concept_capabilities.
 template <class Traits>
 concept HasRounding = requires(const Traits& traits, const typename Traits::Point_3& p) {
   traits.rounding(p);
 };
 
-/// A model tells how far its affine curvatures can be trusted, because it is a fit, which has estimated errors.
+/// A model that rates the reliability of its affine curvatures, such as a fit with estimated errors.
 /// See \ref concept_capabilities.
 template <class Traits>
 concept HasCertainty = requires(const Traits& traits, const typename Traits::Point_3& p) {
   { traits.certainty(p) } -> std::convertible_to<double>;
 };
 
-/// A model finds its zeros on segments itself.
+/// A model with its own search for zeros on segments.
 /// See \ref concept_capabilities.
 template <class Traits>
 concept HasIntersectSegment = requires(const Traits& traits, const typename Traits::Point_3& p,
@@ -139,7 +138,7 @@ concept HasIntersectSegment = requires(const Traits& traits, const typename Trai
   { traits.intersect_segment(p, p, f, f) } -> std::same_as<Surface_point_3<Kernel_of<Traits>>>;
 };
 
-/// A model hands out the samples of a block of nodes at once.
+/// A model that returns the samples of a block of nodes in one call.
 /// See \ref concept_capabilities.
 template <class Traits>
 concept HasSamples = requires(const Traits& traits, const std::array<std::size_t, 3>& node,
@@ -149,7 +148,7 @@ concept HasSamples = requires(const Traits& traits, const std::array<std::size_t
 
 // clang-format on
 
-/// The expansion of order 1 at a point, computed in the cheapest way that the model has.
+/// The expansion of order 1 at a point, computed as cheaply as the model permits.
 template <ImplicitFunctionTraits_3 Traits>
 Jet_3<typename Traits::FT, 1> first_order(const Traits& traits, const typename Traits::Point_3& p) {
   if constexpr (FirstOrderImplicitFunctionTraits_3<Traits>) {
@@ -162,15 +161,14 @@ Jet_3<typename Traits::FT, 1> first_order(const Traits& traits, const typename T
   }
 }
 
-/// The expansion of order 5 at a point, if the model has that.
+/// The expansion of order 5 at a point, if the model has one.
 template <ImplicitFunctionTraits_3 Traits>
 std::optional<Jet_3<typename Traits::FT, 5>> fifth_order(const Traits& traits, const typename Traits::Point_3& p) {
   if constexpr (HasFifthOrder<Traits>) return traits.fifth_order(p);
   else return std::nullopt;
 }
 
-/// The lattice of the given size on which to sample a function: the one that the model chooses, or the axis-parallel
-/// one of its box.
+/// The lattice of the given size on which to sample a function: chosen by the model, or axis-parallel in its box.
 template <ImplicitFunctionTraits_3 Traits>
 Lattice_3<Kernel_of<Traits>> sampling_lattice(const Traits& traits,
                                               const typename Lattice_3<Kernel_of<Traits>>::Size& size) {
@@ -178,7 +176,7 @@ Lattice_3<Kernel_of<Traits>> sampling_lattice(const Traits& traits,
   else return Lattice_3<Kernel_of<Traits>>(size, traits.bbox());
 }
 
-/// Bounds of value and gradient on a box. Where the model has none, they are the whole line.
+/// Bounds of value and gradient on a box. Missing bounds are the whole real line.
 template <ImplicitFunctionTraits_3 Traits>
 Jet_3<Interval, 1> first_order_bounds(const Traits& traits, const CGAL::Bbox_3& box) {
   if constexpr (FirstOrderBoundedImplicitFunctionTraits_3<Traits>) {
@@ -191,8 +189,8 @@ Jet_3<Interval, 1> first_order_bounds(const Traits& traits, const CGAL::Bbox_3& 
   }
 }
 
-/// The tightest bounds of value and gradient that the model can give. Those from bounds of second order cost about
-/// three times as much, and exceed the range by a multiple of the square of the box's size only.
+/// The tightest bounds of value and gradient that the model supports. If they come from bounds of second order, they
+/// cost about three times as much, and their excess over the range is of the order of the square of the box's size.
 template <ImplicitFunctionTraits_3 Traits>
 Jet_3<Interval, 1> tight_first_order_bounds(const Traits& traits, const CGAL::Bbox_3& box) {
   if constexpr (HasTightFirstOrderBounds<Traits>) {
@@ -207,35 +205,34 @@ Jet_3<Interval, 1> tight_first_order_bounds(const Traits& traits, const CGAL::Bb
   }
 }
 
-/// Which bounds the model has.
+/// Returns which bounds the model has.
 template <ImplicitFunctionTraits_3 Traits>
 Known_bounds known_bounds(const Traits& traits) {
   if constexpr (HasKnownBounds<Traits>) return traits.known_bounds();
   else return {FirstOrderBoundedImplicitFunctionTraits_3<Traits>, SecondOrderBoundedImplicitFunctionTraits_3<Traits>};
 }
 
-/// The greatest error of second derivatives at p, apart from some roundings of the derivatives. A Gaussian curvature
-/// that such errors could produce counts as zero.
+/// A bound on the error of the second derivatives at p, in excess of a few rounding errors of the derivatives. A
+/// Gaussian curvature that such errors could produce is treated as zero.
 template <ImplicitFunctionTraits_3 Traits>
 typename Traits::FT rounding(const Traits& traits, const typename Traits::Point_3& p) {
   if constexpr (HasRounding<Traits>) return traits.rounding(p);
   else return typename Traits::FT(0);
 }
 
-/// How far the affine curvatures of the level set through p can be trusted, from 0 to 1. Affine maps of the function
-/// keep it. Registration tries points of greater certainty first.
+/// The reliability of the affine curvatures of the level set through p, from 0 to 1. It is invariant under affine maps
+/// of space. Registration tries points of greater certainty first.
 template <ImplicitFunctionTraits_3 Traits>
 double certainty(const Traits& traits, const typename Traits::Point_3& p) {
   if constexpr (HasCertainty<Traits>) return traits.certainty(p);
   else return 1;
 }
 
-/// Finds a zero of f on the segment ab, at whose ends f has the values fa and fb of different signs (0 counts as
-/// positive). This is done by Newton's method if the model has derivatives that cost less than `taylor`, else by
-/// Chandrupatla's method. Both start from linear interpolation and stay within the bracket. The result is accurate to a
-/// few roundings of the coordinates. If |f| neither gets smaller than at both ends nor negligible, the sign changes
-/// without a zero, at a pole, a jump or a place where f ceases to be defined, and the result has not converged and says
-/// which it is.
+/// Finds a zero of f on the segment ab, where f has the values fa and fb of different signs at its ends (0 counts as
+/// positive). Uses Newton's method if the model has cheaper derivatives than `taylor`, otherwise Chandrupatla's method.
+/// Both start from linear interpolation and stay within the bracket. The result is accurate to a few roundings of the
+/// coordinates. If |f| neither falls below its values at the ends nor becomes negligible, the sign changes without a
+/// zero: at a pole, at a jump, or where f becomes undefined. The result then has not converged and contains the reason.
 template <ImplicitFunctionTraits_3 Traits>
 Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const typename Traits::Point_3& a,
                                                      const typename Traits::Point_3& b, const typename Traits::FT& fa,
@@ -244,8 +241,8 @@ Surface_point_3<Kernel_of<Traits>> intersect_segment(const Traits& traits, const
   else return internal::zero_on_segment<Kernel_of<Traits>>(traits, a, b, fa, fb);
 }
 
-/// Writes the samples of a function at the nodes of a block of its lattice, i fastest: the block begins with node
-/// `first`, and has `size` nodes along each axis.
+/// Writes the samples of a function at a block of nodes of its lattice, i fastest. The block starts at node `first` and
+/// has `size` nodes along each axis.
 template <LatticeImplicitFunctionTraits_3 Traits>
 void samples(const Traits& traits, const std::array<std::size_t, 3>& first, const std::array<std::size_t, 3>& size,
              std::span<typename Traits::FT> out) {
@@ -258,17 +255,17 @@ void samples(const Traits& traits, const std::array<std::size_t, 3>& first, cons
   }
 }
 
-/// Makes any model of ImplicitFunctionTraits_3 a model of FirstOrderBatchImplicitFunctionTraits_3. It calls the batch
-/// members of a base that has them and loops over single calls otherwise. All other members of the base stay available.
+/// Turns any model of ImplicitFunctionTraits_3 into a model of FirstOrderBatchImplicitFunctionTraits_3. Calls the batch
+/// members of the base, or loops over single calls if it has none. All other members of the base stay available.
 template <ImplicitFunctionTraits_3 Traits>
 class Batch_function_traits_3 : public Traits {
 public:
   using typename Traits::FT;      ///< the number type
   using typename Traits::Point_3; ///< points
 
-  explicit Batch_function_traits_3(Traits traits) : Traits(std::move(traits)) {} ///< wraps a copy of the model
+  explicit Batch_function_traits_3(Traits traits) : Traits(std::move(traits)) {} ///< copies the model
 
-  /// values[i] = value(points[i]); the spans have the same size.
+  /// Sets values[i] to value(points[i]). \pre the spans have the same size
   void values(std::span<const Point_3> points, std::span<FT> values) const {
     CGAL_precondition(points.size() == values.size());
     if constexpr (BatchImplicitFunctionTraits_3<Traits>) Traits::values(points, values);
@@ -276,7 +273,7 @@ public:
       for (std::size_t i = 0; i < points.size(); ++i) values[i] = Traits::value(points[i]);
   }
 
-  /// jets[i] = first_order(points[i]); the spans have the same size.
+  /// Sets jets[i] to first_order(points[i]). \pre the spans have the same size
   void first_orders(std::span<const Point_3> points, std::span<Jet_3<FT, 1>> jets) const {
     CGAL_precondition(points.size() == jets.size());
     if constexpr (FirstOrderBatchImplicitFunctionTraits_3<Traits>) Traits::first_orders(points, jets);
@@ -285,7 +282,7 @@ public:
         jets[i] = equiaffine::first_order(static_cast<const Traits&>(*this), points[i]);
   }
 
-  /// jets[i] = taylor(points[i]); the spans have the same size.
+  /// Sets jets[i] to taylor(points[i]). \pre the spans have the same size
   void taylors(std::span<const Point_3> points, std::span<Jet_3<FT>> jets) const {
     CGAL_precondition(points.size() == jets.size());
     if constexpr (BatchImplicitFunctionTraits_3<Traits>) Traits::taylors(points, jets);
@@ -293,7 +290,7 @@ public:
       for (std::size_t i = 0; i < points.size(); ++i) jets[i] = Traits::taylor(points[i]);
   }
 
-  /// Wraps the model restricted to a block of cells.
+  /// The model restricted to a block of cells, wrapped again.
   Batch_function_traits_3
   restricted_to_cells(const Cell_block& cells) const requires CellwiseImplicitFunctionTraits_3<Traits> {
     return Batch_function_traits_3(Traits::restricted_to_cells(cells));

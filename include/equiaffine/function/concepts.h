@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contract between functions and everything that is done with their level sets. doc/concepts has a page for each
-// concept with its semantics; test/support/conformance.h checks them for every model. What a model may do better than
-// others without a concept that algorithms require is in capabilities.h.
+// The concepts of functions, which all algorithms for level sets require. doc/concepts has a page on the semantics of
+// each concept; test/support/conformance.h checks every model. capabilities.h has optional members of models.
 #ifndef EQUIAFFINE_FUNCTION_CONCEPTS_H
 #define EQUIAFFINE_FUNCTION_CONCEPTS_H
 
@@ -24,9 +23,8 @@ namespace equiaffine {
 
 // clang-format off
 
-/// A function f on a box of space with its Taylor expansions of total order 4. All members may be called from several
-/// threads at once. A point where f is undefined has the value NaN; one where f is not four times differentiable has
-/// some coefficient that is not finite.
+/// A function f on a box with its Taylor expansions of total order 4. All members must be thread-safe. The value is NaN
+/// where f is undefined; some coefficient is not finite where f is not four times differentiable.
 /// See \ref concept_ImplicitFunctionTraits_3.
 template <class Traits>
 concept ImplicitFunctionTraits_3 =
@@ -48,7 +46,7 @@ concept BoundedImplicitFunctionTraits_3 =
     { traits.bounds(box) } -> std::same_as<Interval>;
   };
 
-/// A function that also bounds its gradient: coefficient n of `first_order_bounds(box)` contains that of
+/// A function that also bounds its gradient: coefficient n of `first_order_bounds(box)` contains coefficient n of
 /// `first_order(p)` for every p in the box.
 /// See \ref concept_FirstOrderBoundedImplicitFunctionTraits_3.
 template <class Traits>
@@ -59,7 +57,7 @@ concept FirstOrderBoundedImplicitFunctionTraits_3 =
   };
 
 /// A function that also bounds its second derivatives, for tighter bounds in small boxes: coefficient n of
-/// `second_order_bounds(box)` contains that of the expansion of order 2 at every p in the box.
+/// `second_order_bounds(box)` contains coefficient n of the expansion of order 2 at every p in the box.
 /// See \ref concept_SecondOrderBoundedImplicitFunctionTraits_3.
 template <class Traits>
 concept SecondOrderBoundedImplicitFunctionTraits_3 =
@@ -68,8 +66,8 @@ concept SecondOrderBoundedImplicitFunctionTraits_3 =
     { traits.second_order_bounds(box) } -> std::same_as<Jet_3<Interval, 2>>;
   };
 
-/// A function that may be cheaper on a box: `restricted(box)` is nothing, or a function with the same values and
-/// expansions of order 1 in the box, bit for bit, and with bounds that contain these.
+/// A function that may have a cheaper version on a box: `restricted(box)` is empty, or a function with the same values
+/// and expansions of order 1 in the box, bit for bit, and with valid bounds of these.
 /// See \ref concept_RestrictableImplicitFunctionTraits_3.
 template <class Traits>
 concept RestrictableImplicitFunctionTraits_3 =
@@ -78,7 +76,7 @@ concept RestrictableImplicitFunctionTraits_3 =
     { traits.restricted(box) } -> std::same_as<std::optional<Traits>>;
   };
 
-/// A function that evaluates many points in one call; the numbers are those of the single calls, bit for bit.
+/// A function that evaluates many points in one call, with the same results as single calls, bit for bit.
 /// See \ref concept_BatchImplicitFunctionTraits_3.
 template <class Traits>
 concept BatchImplicitFunctionTraits_3 =
@@ -89,8 +87,8 @@ concept BatchImplicitFunctionTraits_3 =
     traits.taylors(points, jets);
   };
 
-/// A function that also expands to order 1 at many points in one call, bit for bit as `first_order` does unless the
-/// compiler contracts products and sums.
+/// A function that also expands to order 1 at many points in one call, with the same results as `first_order`, bit for
+/// bit unless the compiler contracts products and sums.
 /// See \ref concept_BatchImplicitFunctionTraits_3.
 template <class Traits>
 concept FirstOrderBatchImplicitFunctionTraits_3 =
@@ -100,8 +98,8 @@ concept FirstOrderBatchImplicitFunctionTraits_3 =
     traits.first_orders(points, jets);
   };
 
-/// A function that expands at the points of packs: lane i of x[n], y[n], z[n] is a point, lane i of jets[n] its
-/// expansion, bit for bit unless the compiler contracts products and sums. It may throw Lanes_disagree.
+/// A function that expands at points in packs: lane i of x[n], y[n], z[n] is a point, and lane i of jets[n] is its
+/// expansion, bit for bit unless the compiler contracts products and sums. May throw Lanes_disagree.
 /// See \ref concept_PackImplicitFunctionTraits_3.
 template <class Traits>
 concept PackImplicitFunctionTraits_3 =
@@ -120,7 +118,7 @@ concept FirstOrderImplicitFunctionTraits_3 =
     { traits.first_order(p) } -> std::same_as<Jet_3<typename Traits::FT, 1>>;
   };
 
-/// A function that was sampled at the nodes of a lattice and knows the samples.
+/// A function with samples at the nodes of a lattice.
 /// See \ref concept_LatticeImplicitFunctionTraits_3.
 template <class Traits>
 concept LatticeImplicitFunctionTraits_3 =
@@ -131,7 +129,7 @@ concept LatticeImplicitFunctionTraits_3 =
     { traits.sample(i, i, i) } -> std::convertible_to<typename Traits::FT>;
   };
 
-/// A lattice function that may take less memory where it is evaluated in a block of cells only.
+/// A lattice function that may need less memory if it is evaluated in a block of cells only.
 /// See \ref concept_CellwiseImplicitFunctionTraits_3.
 template <class Traits>
 concept CellwiseImplicitFunctionTraits_3 =
@@ -149,8 +147,8 @@ using Kernel_of = typename CGAL::Kernel_traits<typename Traits::Point_3>::Kernel
 
 namespace internal {
 
-/// Does not compile for a type that is no model of ImplicitFunctionTraits_3. See explain_parameters() in
-/// named_parameters.h.
+/// Fails to compile, with an explanation, if a type is not a model of ImplicitFunctionTraits_3. See
+/// explain_parameters() in named_parameters.h.
 template <class Traits>
 constexpr void explain_traits() {
   static_assert(
@@ -159,29 +157,27 @@ constexpr void explain_traits() {
         typename Traits::Point_3;
         typename Traits::Vector_3;
       },
-      "this function is no model of ImplicitFunctionTraits_3, since it has no types FT, Point_3 and Vector_3: "
-      "make_analytic_traits() makes one of f(x, y, z), and sample_on_lattice() with Sampled_function_traits_3 one of "
-      "f(p)");
+      "this function is not a model of ImplicitFunctionTraits_3: it has no types FT, Point_3 and Vector_3; call "
+      "make_analytic_traits() with f(x, y, z), or sample_on_lattice() with f(p) and then Sampled_function_traits_3");
   static_assert(
       requires(const Traits& t, const typename Traits::Point_3& p) {
         { t.value(p) } -> std::convertible_to<typename Traits::FT>;
       },
-      "this function is no model of ImplicitFunctionTraits_3, since it has no member value(p) const that returns an "
-      "FT");
+      "this function is not a model of ImplicitFunctionTraits_3: it has no member value(p) const that returns an FT");
   static_assert(
       requires(const Traits& t, const typename Traits::Point_3& p) {
         { t.taylor(p) } -> std::same_as<Jet_3<typename Traits::FT>>;
       },
-      "this function is no model of ImplicitFunctionTraits_3, since it has no member taylor(p) const that returns a "
-      "Jet_3<FT>: expand<4>() makes one of f(x, y, z)");
+      "this function is not a model of ImplicitFunctionTraits_3: it has no member taylor(p) const that returns a "
+      "Jet_3<FT>; call expand<4>() with f(x, y, z)");
   static_assert(
       requires(const Traits& t) {
         { t.bbox() } -> std::convertible_to<CGAL::Bbox_3>;
       },
-      "this function is no model of ImplicitFunctionTraits_3, since it has no member bbox() const that returns a "
+      "this function is not a model of ImplicitFunctionTraits_3: it has no member bbox() const that returns a "
       "CGAL::Bbox_3");
   static_assert(std::copy_constructible<Traits>,
-                "this function is no model of ImplicitFunctionTraits_3, since it cannot be copied");
+                "this function is not a model of ImplicitFunctionTraits_3: it cannot be copied");
 }
 
 } // namespace internal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Taylor expansion of a functor f(x, y, z) by automatic differentiation, at a point and at many.
+// The Taylor expansion of a functor f(x, y, z) by automatic differentiation, at one or many points.
 #ifndef EQUIAFFINE_FUNCTION_EXPAND_H
 #define EQUIAFFINE_FUNCTION_EXPAND_H
 
@@ -16,8 +16,8 @@
 
 namespace equiaffine::internal {
 
-/// The jet of the coordinate along an axis. Its type holds two coefficients only, the value and the derivative along
-/// the axis, so that the compiler knows that all others are zero.
+/// The jet of a coordinate. Its type has only two coefficients, the value and the derivative along the axis, so that
+/// all others are zero at compile time.
 template <class FT, int Order, int Axis>
 auto sparse_variable(const FT& value) {
   constexpr Monomial_set constant = 1, coordinate = Monomial_set(2) << Axis;
@@ -31,15 +31,15 @@ concept CallableWith = requires(const Function& f, const X& x, const Y& y, const
   f(x, y, z);
 };
 
-// A sanitizer adds checks to every operation: inlined into one function, they would take too long to compile.
+// With a sanitizer every operation has checks; inlined into one function, they would take too long to compile.
 #ifdef __SANITIZE_ADDRESS__
 #define EQUIAFFINE_FLATTEN
 #else
 #define EQUIAFFINE_FLATTEN [[gnu::flatten]]
 #endif
 
-/// Calls f(x, y, z) with everything inlined. A jet that is passed to a function goes through memory, which costs more
-/// than the arithmetic on it.
+/// Calls f(x, y, z) with everything inlined. Passing a jet to a function costs more than the arithmetic on it, since it
+/// goes through memory.
 template <class Result, class Function, class X, class Y, class Z>
 EQUIAFFINE_FLATTEN Result inlined_call(const Function& f, const X& x, const Y& y, const Z& z) {
   return f(x, y, z);
@@ -47,13 +47,13 @@ EQUIAFFINE_FLATTEN Result inlined_call(const Function& f, const X& x, const Y& y
 
 #undef EQUIAFFINE_FLATTEN
 
-/// A function that may be a cheaper one, of the same type, on a box.
+/// A function that may have a cheaper version, of the same type, on a box.
 template <class Function>
 concept HasRestriction = requires(const Function& f, const Interval& x) {
   { f.restricted(x, x, x) } -> std::same_as<std::optional<Function>>;
 };
 
-/// A function that computes its Taylor polynomials itself, for numbers and for spans of packs.
+/// A function that computes its Taylor polynomials itself, for numbers and spans of packs.
 template <class Function, class FT>
 concept HasTaylor = requires(const Function& f, const FT& x, std::span<const Pack<FT>> packs,
                              std::span<Jet_3<Pack<FT>>> jets) {
@@ -65,10 +65,10 @@ concept HasTaylor = requires(const Function& f, const FT& x, std::span<const Pac
 
 namespace equiaffine {
 
-/// The Taylor expansion of a functor f at (x, y, z), by automatic differentiation: a polynomial in the distances from
-/// x, y and z whose total order is 1 to 5. The functor is a template of the types of its three arguments, which is
-/// faster, or of one type, and calls functions as `using std::sin; sin(x)`. FT may be a Pack, of which each lane is a
-/// point of its own; then f may throw Lanes_disagree.
+/// The Taylor expansion of a functor f at (x, y, z), by automatic differentiation: a polynomial of total order 1 to 5
+/// in the offsets from x, y and z. The functor is a template of one argument type or, which is faster, of three. It
+/// must call functions as `using std::sin; sin(x)`. If FT is a Pack, each lane is a point of its own; f may then throw
+/// Lanes_disagree.
 template <int Order, class FT, class Function>
 Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z) {
   const auto sx = internal::sparse_variable<FT, Order, 0>(x);
@@ -80,8 +80,8 @@ Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z
     else return f(sx, sy, sz);
   } else {
     static_assert(internal::CallableWith<Function, Jet, Jet, Jet>,
-                  "the function takes no jets: write it as a template of the type of its arguments, and call functions "
-                  "as `using std::sin; sin(x)`");
+                  "the function does not accept jets: write it as a template of the type of its arguments, and call "
+                  "functions as `using std::sin; sin(x)`");
     return f(Jet(sx), Jet(sy), Jet(sz));
   }
 }
@@ -90,13 +90,13 @@ Jet_3<FT, Order> expand(const Function& f, const FT& x, const FT& y, const FT& z
 
 namespace equiaffine::internal {
 
-/// A functor has a call on spans of coordinates and a span for the values.
+/// A functor that can be called with spans of coordinates and a span for the values.
 template <class Function, class FT>
 concept TakesSpans = requires(const Function& f, std::span<const FT> coordinates, std::span<FT> values) {
   f(coordinates, coordinates, coordinates, values);
 };
 
-/// values[i] becomes f at points[i].
+/// Sets values[i] to f(points[i]).
 template <class FT, class Function, class Point_3>
 void values_at(const Function& f, std::span<const Point_3> points, std::span<FT> values) {
   if constexpr (TakesSpans<Function, FT>) {
@@ -116,8 +116,8 @@ void values_at(const Function& f, std::span<const Point_3> points, std::span<FT>
   }
 }
 
-/// jets[i] becomes the expansion of f at points[i], computed in packs.
-/// \throw Lanes_disagree where f branches differently in the lanes of a pack.
+/// Sets jets[i] to the expansion of f at points[i], computed in packs.
+/// \throw Lanes_disagree if f branches differently in the lanes of a pack
 template <int Order, class FT, class Function, class Point_3>
 void expand_points(const Function& f, std::span<const Point_3> points, std::span<Jet_3<FT, Order>> jets) {
   using Lanes = Pack<FT>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Functions as fields of CGAL's package Isosurfacing_3 (CGAL 6.1 and later), and its fields on a grid as volumes. No
-// header of that package is needed here.
+// Converts functions to fields of CGAL's package Isosurfacing_3 (CGAL 6.1 and later), and its fields on a grid to
+// volumes. No header of that package is needed.
 #ifndef EQUIAFFINE_FUNCTION_ISOSURFACING_FIELDS_H
 #define EQUIAFFINE_FUNCTION_ISOSURFACING_FIELDS_H
 
@@ -21,11 +21,11 @@
 
 namespace equiaffine {
 
-/// The values of f at points of any kernel: the function of a CGAL::Isosurfacing::Value_function_3.
+/// The values of f at points of any kernel, for a CGAL::Isosurfacing::Value_function_3.
 template <ImplicitFunctionTraits_3 Traits>
 class Value_of_function_3 {
 public:
-  explicit Value_of_function_3(Traits traits) : traits_(std::move(traits)) {} ///< holds a copy of the model
+  explicit Value_of_function_3(Traits traits) : traits_(std::move(traits)) {} ///< copies the model
 
   /// f(p), in double.
   template <class Point_3>
@@ -38,14 +38,13 @@ private:
   Traits traits_;
 };
 
-/// The gradient of f, divided by its length: the function of a CGAL::Isosurfacing::Gradient_function_3. It is zero
-/// where f has none.
+/// The normalized gradient of f, for a CGAL::Isosurfacing::Gradient_function_3. It is zero where f has no gradient.
 template <ImplicitFunctionTraits_3 Traits>
 class Gradient_of_function_3 {
 public:
-  explicit Gradient_of_function_3(Traits traits) : traits_(std::move(traits)) {} ///< holds a copy of the model
+  explicit Gradient_of_function_3(Traits traits) : traits_(std::move(traits)) {} ///< copies the model
 
-  /// The unit vector along the gradient of f at p, or the vector zero.
+  /// The unit vector along the gradient of f at p, or the zero vector.
   template <class Point_3>
   auto operator()(const Point_3& p) const {
     using Vector_3 = typename CGAL::Kernel_traits<Point_3>::Kernel::Vector_3;
@@ -60,15 +59,16 @@ private:
   Traits traits_;
 };
 
-/// A model of CGAL's IsosurfacingEdgeIntersectionOracle_3 that finds the points of edges on the surface to rounding,
-/// where CGAL's interpolate or halve an interval. Dual Contouring asks it; CGAL 6.2's Marching Cubes interpolates.
+/// A model of CGAL's IsosurfacingEdgeIntersectionOracle_3 that computes the intersection of an edge and the surface to
+/// rounding accuracy; CGAL's own models interpolate or bisect. Dual Contouring uses it; Marching Cubes of CGAL 6.2
+/// interpolates.
 template <ImplicitFunctionTraits_3 Traits>
 class Edge_intersection_of_function_3 {
 public:
-  explicit Edge_intersection_of_function_3(Traits traits) : traits_(std::move(traits)) {} ///< holds a copy of the model
+  explicit Edge_intersection_of_function_3(Traits traits) : traits_(std::move(traits)) {} ///< copies the model
 
-  /// Returns whether the surface f = isovalue passes between p0 and p1, as the values there say, and sets p to the
-  /// point where it does, or where f jumps over the isovalue. At poles there is none.
+  /// Returns whether the surface f = isovalue intersects the segment p0 p1, according to the values at its ends, and
+  /// sets p to the intersection or to a jump of f across the isovalue. Returns false at poles.
   template <class Point_3, class FT, class Domain>
   bool operator()(const Point_3& p0, const Point_3& p1, const FT& value0, const FT& value1, const Domain&,
                   const FT& isovalue, Point_3& p) const {
@@ -86,8 +86,8 @@ private:
   Traits traits_;
 };
 
-/// The values of a field of CGAL's Isosurfacing_3 at the nodes of its CGAL::Isosurfacing::Cartesian_grid_3. A
-/// Sampled_function_traits_3 of this volume is a function with derivatives.
+/// The values of a field of CGAL's Isosurfacing_3 at the nodes of its CGAL::Isosurfacing::Cartesian_grid_3. Pass the
+/// volume to Sampled_function_traits_3 to obtain a function with derivatives.
 template <class Field, class Grid>
 Volume_3<CGAL::Simple_cartesian<double>> sampled_field(const Field& field, const Grid& grid) {
   using Kernel = CGAL::Simple_cartesian<double>;

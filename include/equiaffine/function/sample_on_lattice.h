@@ -15,8 +15,8 @@
 
 namespace equiaffine {
 
-/// The values of a function at the nodes of a lattice, NaN where it is undefined. `on_progress(n)` is called after
-/// every n nodes, from any thread. CGAL::Sequential_tag and CGAL::Parallel_tag give the same values, bit for bit.
+/// The values of a function at the nodes of a lattice; NaN where it is undefined. `on_progress(n)` is called after
+/// every n nodes, from any thread. CGAL::Sequential_tag and CGAL::Parallel_tag yield the same values, bit for bit.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Progress>
 Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattice_3<Kernel_of<Traits>>& lattice,
                                               const Progress& on_progress) {
@@ -35,14 +35,14 @@ Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattic
   return volume;
 }
 
-/// The same without reports of progress.
+/// The same without progress reports.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>
 Volume_3<Kernel_of<Traits>> sample_on_lattice(const Traits& traits, const Lattice_3<Kernel_of<Traits>>& lattice) {
   return sample_on_lattice<ConcurrencyTag>(traits, lattice, [](std::size_t) {});
 }
 
-/// The values of anything that can be called with a point, `FT operator()(Point_3) const`, from several threads at
-/// once. A Sampled_function_traits_3 of the volume is a function with derivatives.
+/// The values of any thread-safe functor `FT operator()(Point_3) const`. Pass the volume to Sampled_function_traits_3
+/// to obtain a function with derivatives.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Function, class Kernel>
 Volume_3<Kernel> sample_on_lattice(const Function& f, const Lattice_3<Kernel>& lattice) requires(
     !ImplicitFunctionTraits_3<Function> &&

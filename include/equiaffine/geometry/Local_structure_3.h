@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Local_structure_3, the Euclidean and the affine structure at a point with its status, computed from the jet there:
-// directly if the point is regular, else in natural units. The same for packs of points.
+// Local_structure_3, the Euclidean and affine structure at a point with its status, computed from a jet, also for packs
+// of points. Irregular points are computed in natural units.
 #ifndef EQUIAFFINE_GEOMETRY_LOCAL_STRUCTURE_3_H
 #define EQUIAFFINE_GEOMETRY_LOCAL_STRUCTURE_3_H
 
@@ -21,12 +21,12 @@
 
 namespace equiaffine {
 
-/// Everything that is known at a point of a level set. A number that does not exist is NaN: all of them when the status
-/// is SINGULAR or OUTSIDE, the affine ones when it is PARABOLIC. A point is also SINGULAR if FT cannot hold a number in
-/// the units at hand, although it could in others.
+/// The Euclidean and affine structure at a point of a level set. Numbers that do not exist are NaN: all of them if the
+/// status is SINGULAR or OUTSIDE, the affine ones if it is PARABOLIC. A point is also SINGULAR if a number overflows or
+/// underflows FT in the given units, even if it would not in other units.
 template <class FT>
 struct Local_structure_3 {
-  Point_status status;                 ///< says which numbers exist
+  Point_status status;                 ///< which numbers exist
   Euclidean_structure_3<FT> euclidean; ///< the Euclidean structure
   Affine_structure_3<FT> affine;       ///< the affine structure
 };
@@ -34,23 +34,22 @@ struct Local_structure_3 {
 /// The local structure at a regular point, or at the regular points of a pack.
 template <class FT>
 struct Regular_structure_3 {
-  Local_structure_3<FT> structure; ///< means nothing at a point that is not regular
+  Local_structure_3<FT> structure; ///< meaningless at a point that is not regular
   Mask_of<FT> is_regular;          ///< every number exists
-  Mask_of<FT> is_steep;            ///< the gradient does not count as zero
+  Mask_of<FT> is_steep;            ///< the gradient is not zero, see Monge_chart_3
   Mask_of<FT> is_out_of_range;     ///< Monge_chart_3::d() is not zero, but its powers underflow
 };
 
-/// The estimated differences between affine curvatures that were computed from samples and those of the surface that
-/// was sampled, in the units of the curvatures.
+/// Estimated differences between affine curvatures computed from samples and those of the sampled surface, in the units
+/// of the curvatures.
 template <class FT>
 struct Affine_curvature_error {
   FT affine_gaussian_curvature, ///< of K
       affine_mean_curvature;    ///< of H
 };
 
-/// Estimates of the errors of a local structure, each in the unit of its number. The base has
-/// `affine_gaussian_curvature` and `affine_mean_curvature`. That of a vector is an angle in degrees, which 19 of 20
-/// errors do not exceed. NaN where the number does not exist.
+/// Error estimates of a local structure, each in the unit of its number; the base has those of K and H. The error of a
+/// vector is an angle in degrees that 19 of 20 errors do not exceed. NaN if the number does not exist.
 template <class FT>
 struct Local_structure_error_3 : Affine_curvature_error<FT> {
   FT pick_invariant;               ///< of J
@@ -59,17 +58,17 @@ struct Local_structure_error_3 : Affine_curvature_error<FT> {
   FT normal;                       ///< an angle, also that of the affine co-normal
   FT euclidean_gaussian_curvature, ///< of K_e
       euclidean_mean_curvature,    ///< of H_e
-      k1,                          ///< of the greater principal curvature
-      k2;                          ///< of the other one
+      k1,                          ///< of the larger principal curvature
+      k2;                          ///< of the smaller principal curvature
 };
 
 } // namespace equiaffine
 
 namespace equiaffine::internal {
 
-/// A unit of f that makes the largest |f_i| about 1, and a unit of length that makes the largest second derivative
-/// about 1. Both are powers of 2, and the exponent of the unit of length is a multiple of 4, so that changing units is
-/// exact for numbers in the range of FT.
+/// A unit of f for which the largest |f_i| is about 1, and a unit of length for which the largest second derivative is
+/// about 1. Both are powers of 2, and the exponent of the unit of length is a multiple of 4, so that converting units
+/// is exact within the range of FT.
 template <class FT>
 struct Natural_units_3 {
   int of_f = 0, of_length = 0; ///< binary exponents of the units
@@ -97,14 +96,14 @@ struct Natural_units_3 {
     return ldexp(x, 2 * of_length - of_f);
   }
 
-  /// Returns numbers of unit length^(`quarters` / 4) to the old unit.
+  /// Converts numbers of unit length^(`quarters` / 4) back to the original unit.
   template <class... Number>
   void restore_all(int quarters, Number&... x) const {
     using std::ldexp;
     ((x = ldexp(x, of_length / 4 * quarters)), ...);
   }
 
-  /// Returns a structure to the old units, by the weights of doc/conventions.md.
+  /// Converts a structure back to the original units, by the weights of doc/conventions.md.
   void restore(Euclidean_structure_3<FT>& e, Affine_structure_3<FT>& a) const {
     restore_all(-4, e.k1, e.k2, e.mean_curvature);
     restore_all(-8, e.gaussian_curvature, a.apolar_cubic[0], a.apolar_cubic[1], a.apolar_cubic[2], a.apolar_cubic[3]);
@@ -134,7 +133,7 @@ private:
   }
 };
 
-// Structures of NaN for numbers that do not exist, and the test whether all numbers are finite.
+// Structures of NaN, and tests whether all numbers are finite.
 
 template <class FT>
 Euclidean_structure_3<FT> no_euclidean_structure() {
@@ -157,8 +156,8 @@ Affine_structure_3<FT> no_affine_structure() {
           {nan, nan, nan, nan}};
 }
 
-/// Whether all numbers are finite. Only some are tested, but every coefficient of the jet, and every power of d, takes
-/// part in one of these.
+/// Whether all numbers are finite. Only some are tested, but every coefficient of the jet and every power of d enters
+/// one of them.
 template <class FT>
 Mask_of<FT> is_finite(const Affine_invariants_3<FT>& s) {
   FT sum = s.gaussian_curvature + s.mean_curvature + s.pick_invariant;
@@ -171,13 +170,13 @@ Mask_of<FT> is_finite(const Euclidean_structure_3<FT>& s) {
   return is_finite_number(FT(s.k1 + s.gaussian_curvature));
 }
 
-/// Returns the chart in which the gradient, and d, count as zero if rounding could have made them.
+/// Returns the chart in which the gradient and d count as zero if rounding could account for them.
 template <class FT>
 Monge_chart_3<FT> chart_within_rounding(const Jet_3<FT>& jet, const std::array<FT, 3>& point,
                                         const std::optional<FT>& rounding) {
   Monge_chart_3<FT> chart(jet);
-  chart.take_gradient_within_rounding_for_zero(point, jet);
-  if (rounding) chart.take_d_within_error_for_zero(jet, *rounding);
+  chart.ignore_gradient_within_rounding(point, jet);
+  if (rounding) chart.ignore_d_within_error(jet, *rounding);
   return chart;
 }
 
@@ -186,27 +185,27 @@ Monge_chart_3<FT> chart_within_rounding(const Jet_3<FT>& jet, const std::array<F
 namespace equiaffine {
 
 /// Computes the local structure of the level set of f through a point, or through the points of a pack, from the jet of
-/// f there. A gradient counts as zero if one rounding of the coordinates of `point` could have made it. K_e counts as
-/// zero if errors of second derivatives of up to `rounding` could have made it; without a `rounding` this is not
-/// checked. Takes about 500 floating-point operations per number or pack.
+/// f. The gradient counts as zero if rounding the coordinates of `point` could account for it. K_e counts as zero if
+/// errors of up to `rounding` in second derivatives could account for it; without `rounding` this is not tested. Takes
+/// about 500 floating-point operations per number or pack.
 template <class FT>
 Regular_structure_3<FT> regular_structure(const Jet_3<FT>& jet, const std::array<FT, 3>& point,
                                           const std::optional<std::type_identity_t<FT>>& rounding = {}) {
   const Monge_chart_3<FT> chart = internal::chart_within_rounding(jet, point, rounding);
   Regular_structure_3<FT> s{{Point_status::REGULAR, euclidean_structure(chart), affine_structure(chart)}, {}, {}, {}};
-  // If d^2 underflows, so do other products of that degree, and unlike overflow this leaves no trace in the result.
-  const Mask_of<FT> has_room = chart.determinant * chart.determinant >= FT(std::numeric_limits<FT>::min());
+  // If d^2 underflows, so do other products of that degree. Unlike overflow, this is not visible in the result.
+  const Mask_of<FT> is_in_range = chart.determinant * chart.determinant >= FT(std::numeric_limits<FT>::min());
   s.is_steep = chart.is_steep;
-  s.is_out_of_range = chart.is_curved && !has_room;
-  s.is_regular = has_room && chart.is_steep && chart.is_curved && is_finite_number(jet.value()) &&
+  s.is_out_of_range = chart.is_curved && !is_in_range;
+  s.is_regular = is_in_range && chart.is_steep && chart.is_curved && is_finite_number(jet.value()) &&
                  internal::is_finite(s.structure.euclidean) && internal::is_finite(s.structure.affine);
   return s;
 }
 
-/// Computes the status of a point that regular_structure() does not call regular, and the numbers that exist there.
-/// `is_steep` is the one that regular_structure() returned. Takes about 1000 floating-point operations, in natural
-/// units: the status does not depend on the units of the function and of space, and intermediate numbers stay in the
-/// range of FT.
+/// Computes the status of a point that is not regular according to regular_structure(), and the numbers that exist
+/// there. `is_steep` is the one that regular_structure() returned. Takes about 1000 floating-point operations. Uses
+/// natural units: the status does not depend on the units of the function and of space, and intermediate results stay
+/// within the range of FT.
 template <class FT>
 Local_structure_3<FT> irregular_structure(const Jet_3<FT>& jet, bool is_steep, const FT& rounding = FT(0)) {
   Local_structure_3<FT> nothing{Point_status::SINGULAR, internal::no_euclidean_structure<FT>(),
@@ -230,10 +229,10 @@ Local_structure_3<FT> irregular_structure(const Jet_3<FT>& jet, bool is_steep, c
   return s;
 }
 
-/// Computes the Euclidean and affine local structure of the level set of f through a point from the jet of f there. The
-/// point need not satisfy f = 0. A gradient counts as zero if one rounding of the coordinates of `point` could have
-/// made it. K_e counts as zero if errors of second derivatives of up to `rounding` could have made it; for 0 this is
-/// not checked. Takes about 500 floating-point operations, and three times as many if the point is not regular.
+/// Computes the local structure of the level set of f through a point from the jet of f. The point need not satisfy f =
+/// 0. The gradient counts as zero if rounding the coordinates of `point` could account for it. K_e counts as zero if
+/// errors of up to `rounding` in second derivatives could account for it; for 0 this is not tested. Takes about 500
+/// floating-point operations, three times as many if the point is not regular.
 template <class FT>
 Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const std::array<FT, 3>& point = {FT(0), FT(0), FT(0)},
                                       const FT& rounding = FT(0)) {

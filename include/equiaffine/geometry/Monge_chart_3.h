@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Monge_chart_3, the level set of f through a point in a frame of determinant 1 that suits it, made from the jet of f
-// there.
+// Monge_chart_3, the level set of f through a point as a graph, in an adapted frame of determinant 1, from the jet of
+// f.
 #ifndef EQUIAFFINE_GEOMETRY_MONGE_CHART_3_H
 #define EQUIAFFINE_GEOMETRY_MONGE_CHART_3_H
 
@@ -16,17 +16,17 @@
 
 namespace equiaffine::internal {
 
-/// The axis that takes the part of z in a chart.
+/// The axis that is used as z in a chart.
 template <class FT>
 struct Pivot_3 {
   Mask_of<FT> is_x, is_y;
   std::array<FT, 3> reciprocals; ///< 1 / f_i for all three axes
 };
 
-/// Chooses the axis whose largest |f_ij| / |f_i f_j| is smallest. An axis with f_j = 0 does not count. Among equals it
-/// is that with the largest |f_i|.
+/// Chooses the axis i with the smallest maximum over j of |f_ij| / |f_i f_j|. Axes with zero slope are not considered.
+/// Ties go to the largest |f_i|.
 ///
-/// Two axes are compared without the curvature that they share: x with y without xy, then the better one with z.
+/// Two axes are compared without their common term: x with y without xy, then the better one with z.
 template <class FT>
 [[gnu::always_inline]] inline Pivot_3<FT> choose_pivot(const Jet_3<FT>& jet) {
   using std::abs;
@@ -34,7 +34,7 @@ template <class FT>
   const std::array<FT, 3> slope = {abs(c[1]), abs(c[2]), abs(c[3])};
   const std::array<FT, 3> reciprocals = {FT(1) / c[1], FT(1) / c[2], FT(1) / c[3]};
   std::array<Mask_of<FT>, 3> counts;
-  std::array<FT, 3> r; // the reciprocals, 0 for an axis that does not count
+  std::array<FT, 3> r; // the reciprocals; 0 for axes with zero slope
   for (std::size_t i = 0; i < 3; ++i) {
     counts[i] = slope[i] >= FT(std::numeric_limits<FT>::min());
     r[i] = select(counts[i], reciprocals[i], FT(0));
@@ -61,58 +61,58 @@ template <class FT>
 
 namespace equiaffine {
 
-/// The level set of f through a point in a frame of determinant 1 that suits it, made from the jet of f there.
+/// The level set of f through a point as a graph, in an adapted frame of determinant 1, from the jet of f there.
 ///
-/// The coordinates are permuted cyclically to (x, y, z) so that z suits best as the direction of a graph (the pivot).
-/// With a = f_x / f_z, b = f_y / f_z the vectors e_u = (1, 0, -a), e_v = (0, 1, -b) are tangent, and the gradient of
-/// f / f_z in the frame (e_u, e_v, e_w) with e_w = (0, 0, 1) is (0, 0, 1). There
+/// The coordinates are permuted cyclically to (x, y, z) so that z is the best direction of a graph (the pivot). With a
+/// = f_x / f_z, b = f_y / f_z, the vectors e_u = (1, 0, -a), e_v = (0, 1, -b) are tangent, and the gradient of f / f_z
+/// in the frame (e_u, e_v, e_w) with e_w = (0, 0, 1) is (0, 0, 1). In this frame
 ///
-///     f / f_z = w + Q + w L + e w^2 + C + w D + R + terms that do not matter,
+///     f / f_z = w + Q + w L + e w^2 + C + w D + R + irrelevant terms,
 ///
-/// with forms in (u, v) of degree Q:2, L:1, C:3, D:2, R:4. A form of degree n is given by its symmetric coefficients
+/// with forms in (u, v) of degree Q:2, L:1, C:3, D:2, R:4. A form of degree n is stored as its symmetric coefficients
 /// s_i: it is the sum of binomial(n, i) s_i u^(n-i) v^i.
 ///
-/// Any axis with f_i != 0 would do but for rounding. In units of the axes that make all f_i equal to 1 the second
-/// derivatives are f_ij / (f_i f_j). The shear subtracts those of the pivot from the others, which lose digits where
-/// those are large: the pivot is the axis whose largest one is smallest. Other units of the axes do not change this
-/// choice. With the axis of the largest |f_i| digits are lost where the surface is long in another direction, and a
-/// rotation instead of the shear would mix the scales of an anisotropic surface.
+/// In exact arithmetic any axis with f_i != 0 would do. If the axes are scaled so that all f_i are 1, the second
+/// derivatives are f_ij / (f_i f_j). The shear subtracts those of the pivot from the others, which loses digits if they
+/// are large. The pivot is therefore the axis whose largest one is smallest; this choice does not depend on the units
+/// of the axes. Choosing the axis of the largest |f_i| would lose digits if the surface is elongated along another
+/// axis, and a rotation instead of the shear would mix the scales of an anisotropic surface.
 ///
-/// Where Q is nearly the square of a linear form, e_u and e_v are nearly parallel for their lengths: the pivot becomes
-/// the axis with which they are least so. Where that does not help, the forms of conjugate() keep the digits that C, D
-/// and R have in the direction in which Q nearly vanishes.
+/// If Q is nearly the square of a linear form, e_u and e_v are nearly parallel relative to their lengths. The pivot
+/// then becomes the axis for which they are least parallel. If that is not sufficient, conjugate() preserves the digits
+/// of C, D and R in the direction in which Q nearly vanishes.
 ///
-/// FT is a number or a pack of numbers; nothing here branches on values but the choice of the pivot.
+/// FT is a number or a pack of numbers. Only the choice of the pivot branches on values.
 template <class FT>
 struct Monge_chart_3 {
   using Mask = Mask_of<FT>; ///< a truth value, or one per lane of a pack
 
-  Mask pivot_is_x, ///< the x axis plays z; the next two, cyclically, play x and y
-      pivot_is_y;  ///< the y axis plays z; else the z axis does
-  Mask is_steep;   ///< the gradient counts as not zero, see `take_gradient_within_rounding_for_zero`
-  /// d counts as not zero: it is more than 500 roundings of the terms of which its entries are sums could make it, see
-  /// also `take_d_within_error_for_zero`.
+  Mask pivot_is_x, ///< the x-axis is used as z, and the next two, cyclically, as x and y
+      pivot_is_y;  ///< the y-axis is used as z; if neither, z itself
+  Mask is_steep;   ///< the gradient is not zero; see ignore_gradient_within_rounding()
+  /// d is not zero: it exceeds the error from 500 roundings of the terms of its entries. See also
+  /// ignore_d_within_error().
   Mask is_curved;
-  /// Q is nearly the square of a linear form in both u and v: parts of the forms of the chart that matter are much
-  /// smaller than these.
+  /// Q is nearly the square of a linear form in both u and v: essential parts of the chart's forms are much smaller
+  /// than the forms.
   Mask is_nearly_square;
-  FT sign;                           ///< of f_z: normals along the gradient are sign (a, b, 1) up to length
+  FT sign;                           ///< of f_z: normals along the gradient are parallel to sign (a, b, 1)
   FT a,                              ///< f_x / f_z
       b;                             ///< f_y / f_z
-  FT shear = FT(0);                  ///< e_v is (0, 1, -b) less this times e_u
-  std::array<FT, 3> quadratic;       ///< of Q
-  std::array<FT, 2> mixed;           ///< of L
-  FT e;                              ///< of w^2
-  std::array<FT, 4> cubic;           ///< of C
-  std::array<FT, 3> mixed_quadratic; ///< of D
-  std::array<FT, 5> quartic;         ///< of R
+  FT shear = FT(0);                  ///< e_v is (0, 1, -b) minus `shear` times e_u
+  std::array<FT, 3> quadratic;       ///< coefficients of Q
+  std::array<FT, 2> mixed;           ///< coefficients of L
+  FT e;                              ///< coefficient of w^2
+  std::array<FT, 4> cubic;           ///< coefficients of C
+  std::array<FT, 3> mixed_quadratic; ///< coefficients of D
+  std::array<FT, 5> quartic;         ///< coefficients of R
   FT determinant;                    ///< of the symmetric coefficients of Q: d / 4
 
-  /// Makes the chart at the point where f has this jet.
+  /// Creates the chart at a point from the jet of f there.
   explicit Monge_chart_3(const Jet_3<FT>& jet) : Monge_chart_3(jet, internal::choose_pivot(jet), true) {}
 
   /// \cond for internal use
-  /// Makes the chart with this pivot, or a better one if it `may_change`.
+  /// Creates the chart with the given pivot, or with a better one if `may_change`.
   Monge_chart_3(const Jet_3<FT>& jet, const internal::Pivot_3<FT>& pivot, bool may_change = false)
       : pivot_is_x(pivot.is_x), pivot_is_y(pivot.is_y) {
     using std::abs;
@@ -123,9 +123,9 @@ struct Monge_chart_3 {
   }
   /// \endcond
 
-  /// Makes `is_steep` false where one rounding of the coordinates of the point could have made the gradient, component
-  /// by component, since the axes can have different units.
-  void take_gradient_within_rounding_for_zero(const std::array<FT, 3>& point, const Jet_3<FT>& jet) {
+  /// Sets `is_steep` to false if rounding the coordinates of the point could account for the gradient. Each component
+  /// is tested separately, since the axes can have different units.
+  void ignore_gradient_within_rounding(const std::array<FT, 3>& point, const Jet_3<FT>& jet) {
     using std::abs;
     const auto& c = jet.coefficients();
     const FT x = roundings(4) * abs(point[0]), y = roundings(4) * abs(point[1]), z = roundings(4) * abs(point[2]);
@@ -134,10 +134,10 @@ struct Monge_chart_3 {
                abs(c[3]) > xz * x + yz * y + two * abs(c[9]) * z;
   }
 
-  /// Makes `is_curved` false where errors of up to `error` in the second derivatives of the jet could have made d. The
+  /// Sets `is_curved` to false if errors of up to `error` in the second derivatives of the jet could account for d. The
   /// resulting errors of the coefficients of Q are those in a frame with a = b = 0, times 1 + |a| for each u and 1 +
   /// |b| for each v.
-  void take_d_within_error_for_zero(const Jet_3<FT>& jet, const FT& error) {
+  void ignore_d_within_error(const Jet_3<FT>& jet, const FT& error) {
     using std::abs;
     const auto& c = jet.coefficients();
     const FT pivot = select(pivot_is_x, c[1], select(pivot_is_y, c[2], c[3]));
@@ -157,7 +157,7 @@ struct Monge_chart_3 {
   /// The determinant of the affine fundamental form.
   FT d() const { return FT(4) * determinant; }
 
-  /// A vector or covector given in the permuted coordinates, in the original ones.
+  /// Converts a vector or covector from the permuted to the original coordinates.
   std::array<FT, 3> unpermuted(const FT& x, const FT& y, const FT& z) const {
     return {select(pivot_is_x, z, select(pivot_is_y, y, x)), select(pivot_is_x, x, select(pivot_is_y, z, y)),
             select(pivot_is_x, y, select(pivot_is_y, x, z))};
@@ -169,14 +169,13 @@ struct Monge_chart_3 {
     return unpermuted(x, v, w - (a * x + b * v));
   }
 
-  /// The chart with the vector conjugate to e_u, on which Q has no term u v, for e_v; itself where the condition does
-  /// not hold.
+  /// Where `condition` holds, the chart whose e_v is conjugate to e_u, so that Q has no term u v; elsewhere this chart.
   Monge_chart_3 conjugate(const Mask& condition) const {
     Monge_chart_3 result = *this;
     const FT k = result.shear = select(condition, FT(quadratic[1] / quadratic[0]), FT(0));
     result.quadratic[1] = select(condition, FT(0), quadratic[1]);
     result.quadratic[2] = select(condition, FT(determinant / quadratic[0]), quadratic[2]);
-    const auto subtract_u_from_v = [&](auto& form) { // for each of the arguments in turn; -0 stays what it is elsewhere
+    const auto subtract_u_from_v = [&](auto& form) { // for each argument in turn; preserves -0 elsewhere
       for (std::size_t n = 1; n < form.size(); ++n)
         for (std::size_t i = form.size() - 1; i >= n; --i)
           form[i] = select(condition, FT(form[i] - k * form[i - 1]), form[i]);
@@ -191,25 +190,24 @@ struct Monge_chart_3 {
 private:
   static FT roundings(int n) { return FT(n) * FT(std::numeric_limits<FT>::epsilon()); }
 
-  /// Number of the monomial that plays x^i y^j z^k when axis `pivot` plays z.
-  static constexpr int played_by(int pivot, int i, int j, int k) {
+  /// Index of the monomial that corresponds to x^i y^j z^k if axis `pivot` is used as z.
+  static constexpr int permuted_index(int pivot, int i, int j, int k) {
     return pivot == 2 ? Jet_3<FT>::index(i, j, k) : pivot == 1 ? Jet_3<FT>::index(j, k, i) : Jet_3<FT>::index(k, i, j);
   }
 
-  /// The coefficient that plays x^I y^J z^K, when it is known which axis plays z, or (Pivot == 3) lane by lane.
+  /// The coefficient of x^I y^J z^K in permuted coordinates, for a fixed pivot or, if Pivot == 3, lane by lane.
   template <int Pivot, int I, int J, int K>
   [[gnu::always_inline]] FT f(const Jet_3<FT>& jet) const {
-    if constexpr (Pivot < 3) return jet.template at<played_by(Pivot, I, J, K)>();
+    if constexpr (Pivot < 3) return jet.template at<permuted_index(Pivot, I, J, K)>();
     else return select(pivot_is_x, f<0, I, J, K>(jet), select(pivot_is_y, f<1, I, J, K>(jet), f<2, I, J, K>(jet)));
   }
 
-  /// Where Q is nearly a square, takes the axis with which its coefficient of u v, times the square of the f_i of the
-  /// axis, is smallest: d, times the fourth power, is the same for all three. Powers of the new a and b must not
-  /// overflow. Returns whether there is a new axis.
+  /// If Q is nearly a square, changes to the axis with the smallest coefficient of u v times f_i^2; d times f_i^4 is
+  /// the same for all three. Powers of the new a and b must not overflow. Returns whether the axis has changed.
   bool change_pivot() {
     using std::abs;
     const FT with_x = abs(quadratic[1] - b / a * quadratic[0]), with_y = abs(quadratic[1] - a / b * quadratic[2]);
-    const FT with_z = abs(quadratic[1]), least(1e-37F); // in the range of float, too
+    const FT with_z = abs(quadratic[1]), least(1e-37F); // also in the range of float
     const Mask x_is_better = is_nearly_square && abs(a) > least && with_x < with_z;
     const Mask y_is_better = is_nearly_square && abs(b) > least && with_y < with_z;
     const Mask to_x = x_is_better && !(y_is_better && with_y < with_x), to_y = y_is_better && !to_x;
@@ -229,9 +227,8 @@ private:
   }
 
   /// Divides every homogeneous part of the jet by z - (w - a u - b v), where `r` is 1 / f_z. The part is a polynomial
-  /// in z whose coefficients are forms in (u, v); synthetic division turns it into one in w. Its coefficients, of w^0
-  /// first, are the forms of the chart: Q, L, e from the part of degree 2, C and D from that of degree 3, R from that
-  /// of 4.
+  /// in z whose coefficients are forms in (u, v); synthetic division turns it into one in w. The coefficients of the
+  /// result, starting with w^0, are the forms of the chart: Q, L, e for degree 2, C and D for degree 3, R for degree 4.
   template <int P>
   void expand(const Jet_3<FT>& jet, const FT& r) {
     sign = select(r > FT(0), FT(1), FT(-1));
@@ -243,7 +240,7 @@ private:
     expand_fourth_order<P>(jet, r);
   }
 
-  /// Sets Q, L and e from xx x^2 + ... + zz z^2, and d with whether it counts as zero.
+  /// Sets Q, L and e from xx x^2 + ... + zz z^2, d, and whether d counts as zero.
   template <int P>
   [[gnu::always_inline]] void expand_second_order(const Jet_3<FT>& jet, const FT& r, const FT& r2) {
     using std::abs;
@@ -258,8 +255,8 @@ private:
     e = r * zz;
 
     determinant = quadratic[0] * quadratic[2] - quadratic[1] * quadratic[1];
-    // The sizes of the terms of which the coefficients of Q are sums (Andrade, Lewiner 2012, equation (2)), and from
-    // these the error of d. Products of the sizes alone would hide a d where large terms of the coefficients cancel.
+    // The magnitudes of the terms in the coefficients of Q (Andrade, Lewiner 2012, equation (2)) and, from these, the
+    // error of d. Products of the magnitudes alone would hide a nonzero d if large terms of the coefficients cancel.
     const FT u = abs(xz) + abs(azz), v = abs(yz) + abs(bzz);
     const FT rounded = roundings(500) * abs(r), rounded2 = roundings(500) * abs(r2);
     const FT uu = rounded * (abs(xx) + abs(a) * u), vv = rounded * (abs(yy) + abs(b) * v);
@@ -307,7 +304,7 @@ private:
   template <std::size_t Degree>
   using Form = std::array<FT, Degree + 1>;
 
-  /// Subtracts (a u + b v) times another form. In place: copies of arrays of packs would go through memory.
+  /// Subtracts (a u + b v) times another form. In place, since copies of arrays of packs would go through memory.
   template <std::size_t N>
   [[gnu::always_inline]] void subtract_multiple(std::array<FT, N + 1>& form, const std::array<FT, N>& other) const {
     [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {

@@ -9,7 +9,7 @@
 
 namespace equiaffine {
 
-/// Says which parts of the local structure exist at a point of a level set. Files store these numbers as the attribute
+/// Which parts of the local structure exist at a point of a level set. Files store the numeric values as the attribute
 /// `status`.
 enum class Point_status : std::uint8_t {
   REGULAR,    ///< every quantity exists
@@ -19,16 +19,16 @@ enum class Point_status : std::uint8_t {
   UNCONVERGED ///< the point could not be moved onto the surface: quantities are those of the level set through it
 };
 
-inline constexpr std::size_t number_of_point_statuses = 5; ///< how many values the enumeration has
+inline constexpr std::size_t number_of_point_statuses = 5; ///< the number of values of the enumeration
 
-/// The status of a point whose structure has the status `structure`, when a sampler says `sampled` of it: a point that
-/// is UNCONVERGED stays so, unless it is OUTSIDE.
+/// Combines the status `structure` of the structure at a point with the status `sampled` from a sampler: an UNCONVERGED
+/// point remains UNCONVERGED, unless it is OUTSIDE.
 constexpr Point_status status_after_sampling(Point_status structure, Point_status sampled) {
   const bool stays_unconverged = sampled == Point_status::UNCONVERGED && structure != Point_status::OUTSIDE;
   return stays_unconverged ? Point_status::UNCONVERGED : structure;
 }
 
-/// The word for a status in text files and statistics.
+/// The name of a status in text files and statistics.
 constexpr std::string_view to_string(Point_status status) {
   constexpr std::array<std::string_view, number_of_point_statuses> words = {"regular", "parabolic", "singular",
                                                                             "outside", "unconverged"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The affine frame at a point of a surface, computed from the affine structure.
+// The affine frame of a surface at a point, computed from the affine structure.
 #ifndef EQUIAFFINE_GEOMETRY_AFFINE_FRAME_H
 #define EQUIAFFINE_GEOMETRY_AFFINE_FRAME_H
 
@@ -13,24 +13,24 @@
 
 namespace equiaffine {
 
-/// The basis of space that the affine structure singles out at a generic point of a surface, of determinant 1 or -1. An
-/// affine map p -> A p + t with a = |det A|, reflections included, carries it to the one at the image:
+/// The basis of space, of determinant 1 or -1, that the affine structure defines at a generic point of a surface. An
+/// affine map p -> A p + t with a = |det A|, reflections included, maps it to the frame at the image point:
 ///
 ///     e1' = a^(-1/4) A e1,  e2' = a^(-1/4) A e2,  xi' = a^(-1/2) A xi,  scale' = a^(-1/2) scale,
 ///
-/// and the signature stays. So one pair of corresponding points determines the map. See doc/conventions.md for the
-/// definition. Units: e1 and e2 length^(1/4), xi length^(-1/2), scale length^(-3/2).
+/// and preserves the signature. One pair of corresponding points therefore determines the map. doc/conventions.md has
+/// the definition. Units: e1 and e2 length^(1/4), xi length^(-1/2), scale length^(-3/2).
 template <class FT>
 struct Affine_frame_3 {
-  std::array<FT, 3> e1, ///< a tangent vector: an eigenvector of B (elliptic points), an asymptotic one (hyperbolic)
-      e2;               ///< the other one
-  std::array<FT, 3> xi; ///< the affine normal, or the opposite vector: J >= 0 for this orientation
+  std::array<FT, 3> e1, ///< tangent: an eigenvector of B (elliptic points) or asymptotic (hyperbolic)
+      e2;               ///< the other such vector
+  std::array<FT, 3> xi; ///< the affine normal or its opposite, such that J >= 0
   FT scale;             ///< r = sqrt(H^2 + J^2 + |D|) with D = H^2 - K
   /// H / r, J / r >= 0, sign(D) sqrt|D| / r and Theta / (|D| r^2): all invariants of order 4.
   std::array<FT, 4> signature;
-  /// How well the structure determines the frame: 0 where it does not, 1 at most or not much more.
+  /// How well the structure determines the frame: 0 if it does not, and hardly more than 1.
   FT quality;
-  Mask_of<FT> is_elliptic; ///< the kind of the point: K_e > 0, or else K_e < 0
+  Mask_of<FT> is_elliptic; ///< whether K_e > 0; otherwise K_e < 0
 };
 
 } // namespace equiaffine
@@ -38,7 +38,7 @@ struct Affine_frame_3 {
 namespace equiaffine::internal {
 
 // The steps from the affine structure to the frame. `beta` is the trace-free part of B with its index lowered by the
-// metric, T the trace-free cubic form, both in the basis of the chart.
+// metric, and T is the trace-free cubic form, both in the basis of the chart.
 
 template <class FT>
 using Tangent_vector = std::array<FT, 2>;
@@ -65,7 +65,7 @@ FT form_at(const std::array<FT, 3>& form, const Tangent_vector<FT>& x, const Tan
   return x[0] * (form[0] * y[0] + form[1] * y[1]) + x[1] * (form[1] * y[0] + form[2] * y[1]);
 }
 
-/// The value of a cubic form on one vector three times.
+/// The value of a cubic form for three equal arguments.
 template <class FT>
 FT form_at(const std::array<FT, 4>& form, const Tangent_vector<FT>& x) {
   const FT u = x[0], v = x[1];
@@ -82,12 +82,12 @@ FT sign_of(const FT& x) {
   return select(x < FT(0), FT(-1), FT(1));
 }
 
-/// The forms at a point for the orientation that makes the metric of an elliptic point positive, and J that of a
-/// hyperbolic one. The other orientation has beta unchanged, and the opposite of all others.
+/// The forms at a point, oriented so that the metric is positive at an elliptic point and J is positive at a hyperbolic
+/// one. Reversing the orientation changes the sign of all forms except beta.
 template <class FT>
 struct Oriented_forms {
   Mask_of<FT> is_elliptic;
-  FT orientation; ///< 1 for that of the gradient, or -1
+  FT orientation; ///< 1 for the orientation of the gradient, otherwise -1
   FT determinant; ///< of the metric
   std::array<FT, 3> metric, beta;
   std::array<FT, 4> cubic;
@@ -105,18 +105,18 @@ struct Oriented_forms {
   }
 };
 
-/// The two tangent vectors of a frame, and what they say of the invariants.
+/// The two tangent vectors of a frame, and related invariants.
 template <class FT>
 struct Tangent_frame {
   Tangent_vector<FT> e1, e2;
   FT discriminant;   ///< D = H^2 - K
   FT theta_over_d;   ///< Theta / |D|
-  FT beta_gap;       ///< by which the two directions differ, in the unit of r
-  FT cubic1, cubic2; ///< T on e1 and on e2, not negative
+  FT beta_gap;       ///< by how much the two directions differ, in the unit of r
+  FT cubic1, cubic2; ///< T for e1 and for e2, nonnegative
 };
 
-/// The eigenvectors of beta, that of the positive eigenvalue first, orthonormal in the metric and turned so that T is
-/// positive on both.
+/// The eigenvectors of beta, starting with the positive eigenvalue, orthonormal in the metric and oriented so that T is
+/// positive for both.
 template <class FT>
 Tangent_frame<FT> elliptic_frame(const Oriented_forms<FT>& s) {
   using std::abs;
@@ -141,7 +141,8 @@ Tangent_frame<FT> elliptic_frame(const Oriented_forms<FT>& s) {
   return frame;
 }
 
-/// The null directions of the metric, with product 1, the same T on both, the one where beta is larger first.
+/// The null directions of the metric, scaled so that their product is 1 and T is equal for both; first the one with
+/// larger |beta|.
 template <class FT>
 Tangent_frame<FT> hyperbolic_frame(const Oriented_forms<FT>& s) {
   using std::abs;
@@ -159,7 +160,7 @@ Tangent_frame<FT> hyperbolic_frame(const Oriented_forms<FT>& s) {
   frame.e1 = select_vector<FT>(is_ordered, plus, minus);
   frame.e2 = select_vector<FT>(is_ordered, minus, plus);
   frame.cubic1 = frame.cubic2 = sqrt(FT(abs(t1 * t2)));
-  frame.discriminant = form_at(s.beta, n1, n1) * form_at(s.beta, n2, n2); // T may vanish, and the boost not exist
+  frame.discriminant = form_at(s.beta, n1, n1) * form_at(s.beta, n2, n2); // T = 0 has no boost
   frame.theta_over_d = FT(0.25) * frame.cubic1 * frame.cubic1 * (beta1 * beta1 * beta1 + beta2 * beta2 * beta2) /
                        abs(frame.discriminant);
   frame.beta_gap = lesser(FT(abs(abs(beta1) - abs(beta2))), FT(sqrt(FT(abs(frame.discriminant)))));
@@ -182,10 +183,10 @@ Tangent_frame<FT> select_frame(const Mask_of<FT>& condition, const Tangent_frame
 
 namespace equiaffine {
 
-/// Computes the affine frame at a regular point, or at the points of a pack. It depends on the surface alone, not on
-/// the side that the gradient points to. Where the structure has a symmetry, as on quadrics, the frame is not
-/// determined: its quality is 0, or of the size of rounding, and e1 and e2 mean nothing, or are NaN. Nothing branches
-/// on values. Takes about 200 floating-point operations.
+/// Computes the affine frame at a regular point, or at the points of a pack. It depends only on the surface, not on the
+/// direction of the gradient. If the structure has a symmetry, as on quadrics, the frame is not determined: its quality
+/// is 0 or of the order of rounding, and e1 and e2 are meaningless or NaN. Does not branch on values. Takes about 200
+/// floating-point operations.
 template <class FT>
 Affine_frame_3<FT> affine_frame(const Affine_structure_3<FT>& s) {
   using std::abs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The equi-affine structure at a point of a surface, or its invariants alone, computed from a chart.
+// The equi-affine structure of a surface at a point, or only its invariants, computed from a chart.
 #ifndef EQUIAFFINE_GEOMETRY_AFFINE_STRUCTURE_H
 #define EQUIAFFINE_GEOMETRY_AFFINE_STRUCTURE_H
 
@@ -13,16 +13,16 @@
 
 namespace equiaffine {
 
-/// The equi-affine (Blaschke) structure of an oriented surface at a point: the numbers that volume-preserving affine
-/// maps keep (curvatures, Pick invariant) and the forms and vectors that they carry along (metric, co-normal, normal).
-/// See Andrade, Lewiner: Affine-invariant curvature estimators for implicit surfaces, 2012, section 2; Nomizu, Sasaki:
-/// Affine Differential Geometry, 1994, chapter II.
+/// The equi-affine (Blaschke) structure of an oriented surface at a point. Volume-preserving affine maps preserve its
+/// curvatures and Pick invariant, and map its metric, co-normal and normal along with the surface. See Andrade,
+/// Lewiner: Affine-invariant curvature estimators for implicit surfaces, 2012, section 2; Nomizu, Sasaki: Affine
+/// Differential Geometry, 1994, chapter II.
 ///
 /// Conventions: nu(xi) = 1, dxi(X) = -B X. A sphere of radius r with outward gradient has K = r^-3, H = -r^(-3/2), J =
-/// 0. -f instead of f changes the sign of nu, xi, H, J and of the metric; c f with c > 0 nothing. Units: K length^-3, H
-/// and J length^(-3/2), xi length^(-1/2), nu length^(1/2); the metric maps two vectors to length^(3/2). Under p -> A p
-/// with a = |det A|: K / a, H / sqrt(a), J / sqrt(a), sqrt(a) A^-T nu, A xi / sqrt(a), sqrt(a) A^-T metric A^-1. The
-/// Gauss equation holds: the Gaussian curvature of the metric is H + J.
+/// 0. Replacing f by -f changes the sign of nu, xi, H, J and of the metric; c f with c > 0 changes nothing. Units: K
+/// length^-3, H and J length^(-3/2), xi length^(-1/2), nu length^(1/2); the metric maps two vectors to length^(3/2).
+/// The image under p -> A p with a = |det A| has K / a, H / sqrt(a), J / sqrt(a), sqrt(a) A^-T nu, A xi / sqrt(a),
+/// sqrt(a) A^-T metric A^-1. The Gauss equation holds: the Gaussian curvature of the metric is H + J.
 template <class FT>
 struct Affine_invariants_3 {
   std::array<FT, 3> conormal; ///< nu: |K_e|^(-1/4) times the unit normal along the gradient
@@ -30,26 +30,27 @@ struct Affine_invariants_3 {
   FT gaussian_curvature;      ///< K = det B
   FT mean_curvature;          ///< H = trace B / 2
   FT pick_invariant;          ///< J
-  /// B in the basis e_u, e_v of the chart, row by row.
+  /// B in the basis e_u, e_v of the chart, row-major.
   std::array<FT, 4> shape_operator;
-  /// rho: xi is, up to length, e_w + rho_u e_u + rho_v e_v in the chart.
+  /// rho: xi is parallel to e_w + rho_u e_u + rho_v e_v in the chart.
   std::array<FT, 2> slope;
-  /// The symmetric coefficients of t, the apolar part of the chart's cubic form: zero everywhere exactly on quadrics.
+  /// The symmetric coefficients of t, the apolar part of the chart's cubic form. A surface is a quadric if and only if
+  /// t is zero everywhere.
   std::array<FT, 4> apolar_cubic;
 };
 
-/// The invariants with what follows from them.
+/// The invariants and the quantities derived from them.
 template <class FT>
 struct Affine_structure_3 : Affine_invariants_3<FT> {
   Mask_of<FT> has_real_principal_curvatures; ///< whether the eigenvalues of B are real
-  FT k1,  ///< the greater eigenvalue of B; NaN where they are complex, which needs a hyperbolic point (K_e < 0)
-      k2; ///< the other one
-  /// xx xy xz yy yz zz of the Berwald-Blaschke metric; as a form on space it vanishes along xi, so that an affine map
-  /// carries it along.
+  FT k1,  ///< the larger eigenvalue of B; NaN if complex, which is only possible if K_e < 0
+      k2; ///< the smaller eigenvalue of B
+  /// xx xy xz yy yz zz of the Berwald-Blaschke metric. As a form on space it vanishes along xi, so that affine maps map
+  /// it along with the surface.
   std::array<FT, 6> metric;
-  /// |T| / |II|^2, the lengths of the apolar cubic form and of the second fundamental form in an orthonormal tangent
-  /// basis, whatever the unit of length: zero exactly where t is. J vanishes on other surfaces, too, ruled ones among
-  /// them: where K_e < 0 no affine invariant of this order tells quadrics from all others.
+  /// |T| / |II|^2, with the norms of the apolar cubic form and the second fundamental form in an orthonormal tangent
+  /// basis. Independent of the unit of length; zero exactly if t is zero. J also vanishes on other surfaces, for
+  /// example on ruled ones: if K_e < 0, no affine invariant of this order separates quadrics from all other surfaces.
   FT quadric_defect;
   std::array<FT, 3> tangent_u,       ///< the vector e_u of the chart in space
       tangent_v;                     ///< the vector e_v
@@ -69,7 +70,7 @@ namespace equiaffine::internal {
 template <class FT, std::size_t Degree>
 using Binary_form = std::array<FT, Degree + 1>;
 
-/// The value of a linear form on a vector.
+/// The value of a linear form for a vector.
 template <class FT>
 FT linear_form_at(const Binary_form<FT, 1>& form, const std::array<FT, 2>& x) {
   return form[0] * x[0] + form[1] * x[1];
@@ -79,7 +80,7 @@ FT linear_form_at(const Binary_form<FT, 1>& form, const std::array<FT, 2>& x) {
 template <class FT>
 struct Inverse_form {
   FT reciprocal;               // 1 / det p
-  FT i11, i12, i22, i12_twice; // p^-1 but for the sign of i12
+  FT i11, i12, i22, i12_twice; // p^-1, except for the sign of i12
 
   explicit Inverse_form(const Monge_chart_3<FT>& chart) {
     const auto& p = chart.quadratic;
@@ -109,7 +110,7 @@ struct Inverse_form {
   }
 };
 
-/// A cubic form with a vector as one of its arguments.
+/// A cubic form contracted with a vector.
 template <class FT>
 Binary_form<FT, 2> contract(const Binary_form<FT, 3>& c, const std::array<FT, 2>& u) {
   return {c[0] * u[0] + c[1] * u[1], c[1] * u[0] + c[2] * u[1], c[2] * u[0] + c[3] * u[1]};
@@ -133,7 +134,7 @@ struct Cubic_parts {
   }
 };
 
-/// -|t|^2 / 2, from the Hessian covariant of t, which is this times det p times p.
+/// -|t|^2 / 2, from the Hessian covariant of t, which is this number times det p times p.
 template <class FT>
 FT minus_half_squared_norm(const Binary_form<FT, 3>& t, const Inverse_form<FT>& inverse) {
   const auto& [reciprocal, i11, i12, i22, i12_twice] = inverse;
@@ -154,7 +155,7 @@ Binary_form<FT, 2> fourth_order_form(const Monge_chart_3<FT>& chart, const Inver
           trace[2] - m[2] - contracted[2] - v_thrice[1] * v_thrice[1] + whole * (c[1] * c[3] - c[2] * c[2])};
 }
 
-/// B = `factor` (p^-1 N + sigma I), row by row.
+/// B = `factor` (p^-1 N + sigma I), row-major.
 template <class FT>
 std::array<FT, 4> affine_shape_operator(const Inverse_form<FT>& inverse, const Binary_form<FT, 2>& n, const FT& sigma,
                                         const FT& factor) {
@@ -179,7 +180,8 @@ Affine_invariants_3<FT> invariants_in_basis(const Monge_chart_3<FT>& chart) {
   const FT sigma = fraction<4, 3, FT>() * (chart.e - linear_form_at<FT>(l, alpha)) -
                    inverse.trace(m[0], m[1], m[2]) * fraction<1, 6, FT>() - FT(2) * linear_form_at<FT>(v, alpha);
 
-  // Powers of |d|: `square` is the root, `length` is s times the fourth root, and `reciprocal_length` 1 / length.
+  // Powers of |d|: `square` is the square root, `length` is s times the fourth root, and `reciprocal_length` is 1 /
+  // length.
   const FT square = FT(2) * sqrt(abs(chart.determinant)), length = chart.sign * sqrt(square);
   const FT reciprocal_length = length * square * abs(inverse.reciprocal) * FT(0.25);
   Affine_invariants_3<FT> s;
@@ -195,16 +197,16 @@ Affine_invariants_3<FT> invariants_in_basis(const Monge_chart_3<FT>& chart) {
   return s;
 }
 
-/// Eigenvalues, the larger one first; NaN where they are complex.
+/// Eigenvalues, the larger one first; NaN if they are complex.
 template <class FT>
 struct Real_eigenvalues {
   Mask_of<FT> exist;
   FT larger, smaller;
 };
 
-/// The eigenvalues of B: real for a definite metric, for which B is self-adjoint; else by the sign of the discriminant,
-/// which counts as zero (a double eigenvalue) within the rounding errors of B. The one of smaller magnitude follows
-/// from the product, K, where the difference would cancel.
+/// The eigenvalues of B. They are real for a definite metric, for which B is self-adjoint. Otherwise the sign of the
+/// discriminant decides; within the rounding errors of B it counts as zero (a double eigenvalue). Where the subtraction
+/// would cause cancellation, the eigenvalue of smaller magnitude is computed from the product K.
 template <class FT>
 Real_eigenvalues<FT> affine_principal_curvatures(const Affine_invariants_3<FT>& s, const Mask_of<FT>& is_definite) {
   using std::abs;
@@ -224,8 +226,8 @@ Real_eigenvalues<FT> affine_principal_curvatures(const Affine_invariants_3<FT>& 
   return {are_real, select(are_real, larger, nan), select(are_real, smaller, nan)};
 }
 
-/// s / |d|^(1/4): the metric and T are this times the second derivatives of the graph and the apolar part of the third
-/// ones.
+/// s / |d|^(1/4), the factor from the second derivatives of the graph to the metric, and from the apolar part of its
+/// third derivatives to T.
 template <class FT>
 FT scale_of_forms(const Monge_chart_3<FT>& chart) {
   using std::abs;
@@ -292,14 +294,15 @@ Affine_structure_3<FT> structure_in_basis(const Monge_chart_3<FT>& chart) {
 
 namespace equiaffine {
 
-/// The invariants from a chart, in 340 floating-point operations with the chart, more where Q is nearly a square.
-/// Meaningful where chart.is_curved.
+/// Computes the invariants from a chart. Takes 327 floating-point operations including the chart, more if Q is nearly a
+/// square. \pre chart.is_curved; otherwise the result is meaningless
 ///
-/// Writing p for the quadratic form Q, with which indices are raised and traces taken (h = -2 p), and v for a quarter
-/// of the trace of the cubic form, C = t + 3 sym(v p) with t apolar. The direction alpha = -(1/2) p^-1 L, conjugate to
-/// the tangent plane with respect to the second derivatives of f, is that of the affine normal of a quadric; what
-/// remains, rho = alpha + (3/2) p^-1 v, is small where the surface is near one, however anisotropic: without alpha
-/// digits are lost there. The Gauss-Weingarten equations of the graph -(Q + C + R + Q (e Q - D)) then reduce to
+/// Let p be the quadratic form Q, which raises indices and takes traces (h = -2 p), and v a quarter of the trace of the
+/// cubic form: C = t + 3 sym(v p) with t apolar. The direction alpha = -(1/2) p^-1 L, conjugate to the tangent plane
+/// with respect to the second derivatives of f, is that of the affine normal if f is quadratic. In the slope rho =
+/// alpha + (3/2) p^-1 v of the affine normal, the second term is small if the surface is close to a quadric, however
+/// anisotropic; without separating alpha, digits would be lost there. The Gauss-Weingarten equations of the graph -(Q +
+/// C + R + Q (e Q - D)) then reduce to
 ///
 ///     B = -3/2 s |d|^(1/4) (p^-1 N + sigma I),
 ///     N = tr R - D - 3 C(alpha + p^-1 v) - 9 v v^T + 3/2 Hess(C) / det p,
@@ -314,16 +317,16 @@ Affine_invariants_3<FT> affine_invariants(const Monge_chart_3<FT>& chart) {
   return internal::invariants_in_basis(chart);
 }
 
-/// The whole structure from a chart. Meaningful where chart.is_curved.
+/// Computes the whole structure from a chart. \pre chart.is_curved; otherwise the result is meaningless
 template <class FT>
 Affine_structure_3<FT> affine_structure(const Monge_chart_3<FT>& chart) {
   if (any(chart.is_nearly_square)) return internal::structure_in_basis(chart.conjugate(chart.is_nearly_square));
   return internal::structure_in_basis(chart);
 }
 
-/// The affine area per Euclidean area, |K_e|^(1/4): the integral of it over a part of the surface does not change under
-/// affine maps of determinant 1. It is the length of 1 / nu, needs derivatives of order 2 only, and is 0 at a parabolic
-/// point. Unit: length^(-1/2).
+/// The affine area per unit of Euclidean area, |K_e|^(1/4). Its integral over a part of the surface is invariant under
+/// affine maps of determinant 1. It equals 1 / |nu|, needs derivatives of order 2 only, and is 0 at a parabolic point.
+/// Unit: length^(-1/2).
 template <class FT>
 FT affine_area_density(const FT& gaussian_curvature) {
   using std::abs;

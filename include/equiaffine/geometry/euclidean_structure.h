@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Euclidean structure at a point of a surface, computed from a chart, and numbers that follow from it.
+// The Euclidean structure of a surface at a point, computed from a chart, and derived quantities.
 #ifndef EQUIAFFINE_GEOMETRY_EUCLIDEAN_STRUCTURE_H
 #define EQUIAFFINE_GEOMETRY_EUCLIDEAN_STRUCTURE_H
 
@@ -13,16 +13,16 @@
 
 namespace equiaffine {
 
-/// The Euclidean structure of an oriented surface at a point. The shape operator is S with dn(X) = -S X for the unit
-/// normal n along the gradient: a sphere of radius r with outward gradient has k1 = k2 = -1/r, Gaussian curvature 1/r^2
-/// and mean curvature -1/r. Units: curvatures 1/length, Gaussian curvature 1/length^2.
+/// The Euclidean structure of an oriented surface at a point. The shape operator S is defined by dn(X) = -S X for the
+/// unit normal n along the gradient: a sphere of radius r with outward gradient has k1 = k2 = -1/r, Gaussian curvature
+/// 1/r^2 and mean curvature -1/r. Units: curvatures 1/length, Gaussian curvature 1/length^2.
 template <class FT>
 struct Euclidean_structure_3 {
   std::array<FT, 3> normal;     ///< the unit normal n
-  FT k1,                        ///< the greater principal curvature
-      k2;                       ///< the other one
+  FT k1,                        ///< the larger principal curvature
+      k2;                       ///< the smaller principal curvature
   std::array<FT, 3> direction1, ///< unit principal direction of k1
-      direction2;               ///< that of k2; direction1, direction2, normal are right-handed
+      direction2;               ///< unit principal direction of k2; direction1, direction2, normal are right-handed
   FT gaussian_curvature,        ///< k1 k2
       mean_curvature;           ///< (k1 + k2) / 2
 };
@@ -67,16 +67,17 @@ struct Second_fundamental_form {
 template <class FT>
 void set_principal_curvatures(Euclidean_structure_3<FT>& s, const FT& radius) {
   const FT zero(0);
-  // The curvature of larger magnitude has no cancellation, the other one follows from the product.
+  // The curvature of larger magnitude is free of cancellation; the other one follows from the product.
   const auto first_is_larger = s.mean_curvature >= zero;
   const FT larger = s.mean_curvature + select(first_is_larger, radius, FT(-radius));
   const FT smaller = select(larger == zero, zero, FT(s.gaussian_curvature / larger));
-  // At an umbilic k1 and k2 have to be equal in spite of rounding.
+  // At an umbilic, k1 and k2 must be equal despite rounding.
   s.k1 = select(first_is_larger || smaller < larger, larger, smaller);
   s.k2 = select(first_is_larger && smaller < larger, smaller, larger);
 }
 
-/// Sets the principal directions: that of k1 is an eigenvector of the form; at an umbilic any direction will do.
+/// Sets the principal directions. The direction of k1 is an eigenvector of the form; at an umbilic, any direction is
+/// used.
 template <class FT>
 void set_principal_directions(Euclidean_structure_3<FT>& s, const Monge_chart_3<FT>& chart,
                               const Orthonormal_basis<FT>& basis, const FT& half_difference, const FT& m,
@@ -118,10 +119,10 @@ Euclidean_structure_3<FT> euclidean_structure(const Monge_chart_3<FT>& chart) {
   return s;
 }
 
-/// The shape index of principal curvatures k1 >= k2, (2 / pi) atan2(k1 + k2, k1 - k2), whatever the size of the
-/// surface: -1 on a sphere with outward normals, -1/2 on such a cylinder, 0 on a symmetric saddle, 1/2 and 1 on a
-/// cylinder and a sphere with inward normals. NaN where both curvatures are zero. See Koenderink, van Doorn: Surface
-/// shape and curvature scales, 1992.
+/// The shape index of principal curvatures k1 >= k2, (2 / pi) atan2(k1 + k2, k1 - k2), independent of the size of the
+/// surface: -1 on a sphere and -1/2 on a cylinder with outward normals, 0 on a symmetric saddle, 1/2 on a cylinder and
+/// 1 on a sphere with inward normals. NaN if both curvatures are zero. See Koenderink, van Doorn: Surface shape and
+/// curvature scales, 1992.
 template <class FT>
 FT shape_index(const FT& k1, const FT& k2) {
   using std::atan2;
@@ -130,11 +131,11 @@ FT shape_index(const FT& k1, const FT& k2) {
 }
 
 /// The curvedness of principal curvatures k1, k2, sqrt((k1^2 + k2^2) / 2): 1 / r on a sphere of radius r, 0 on a plane.
-/// Unit: 1/length. Source: as for shape_index().
+/// Unit: 1/length. Source: see shape_index().
 template <class FT>
 FT curvedness(const FT& k1, const FT& k2) {
   const FT half1 = FT(0.5) * k1, half2 = FT(0.5) * k2;
-  // The root of the squares of the mean and half the difference is exactly |k1| where both are equal.
+  // The root of the squares of the mean and half the difference is exactly |k1| if k1 = k2.
   return internal::root_of_squares(FT(half1 + half2), FT(half1 - half2));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Computes the affine structure by the methods of Andrade and Lewiner (2012), to compare with the library's own.
+// The affine structure by the methods of Andrade and Lewiner (2012), for comparison with the library's own.
 #ifndef EQUIAFFINE_GEOMETRY_REFERENCE_ESTIMATORS_H
 #define EQUIAFFINE_GEOMETRY_REFERENCE_ESTIMATORS_H
 
@@ -17,14 +17,14 @@
 
 namespace equiaffine {
 
-/// The ways to compute the affine structure from the 34 derivatives of f at a point: our own, and those of Andrade,
-/// Lewiner: Affine-invariant curvature estimators for implicit surfaces, 2012, with the errata of doc/errata.md
-/// corrected. Theirs are longer, slower and less accurate, and are there to compare with.
+/// The methods to compute the affine structure from the 34 derivatives of f at a point: our own, and those of Andrade,
+/// Lewiner: Affine-invariant curvature estimators for implicit surfaces, 2012, with the corrections of doc/errata.md.
+/// Theirs take more operations and are slower and less accurate; they are provided for comparison.
 enum class Estimator {
   COMPACT,        ///< pivot and shear: affine_structure()
   TRANSFORMATION, ///< section 3: an affine map after which the formulas are short
-  DIRECT,         ///< section 2: the implicit function theorem on the axis that is closest to the gradient
-  DIRECT_Z        ///< section 2 on the z axis wherever the gradient points; not finite where f_z vanishes
+  DIRECT,         ///< section 2: the implicit function theorem for the axis closest to the gradient
+  DIRECT_Z        ///< section 2, always for the z-axis; not finite if f_z vanishes
 };
 
 /// The quantities that the paper estimates, in the conventions of Affine_structure_3.
@@ -51,11 +51,11 @@ std::array<FT, Jet_3<FT>::size> partial_derivatives(const Jet_3<FT>& jet) {
   return f;
 }
 
-// The partial derivatives of the graph z = g(x, y) of a level set, written out in those of f: g_x = -f_x / f_z, and
-// D_x = d/dx + g_x d/dz applied again and again (Andrade, Lewiner 2012, equation (1)).
+// The partial derivatives of the graph z = g(x, y) of a level set, expressed by those of f: g_x = -f_x / f_z, and
+// repeated application of D_x = d/dx + g_x d/dz (Andrade, Lewiner 2012, equation (1)).
 
-/// The derivative of g of order i in x and j in y, i + j >= 1: a sum of products of derivatives of f, each product
-/// divided by a power of f_z.
+/// The derivative of g of order i in x and j in y, i + j >= 1: a sum of products of derivatives of f, each divided by a
+/// power of f_z.
 class Implicit_derivative {
 public:
   Implicit_derivative() = default;
@@ -71,7 +71,7 @@ public:
     }
   }
 
-  /// The value for the partial derivatives `f` in the order of the monomials, and the powers of 1 / f_z.
+  /// The value, given the partial derivatives `f` in the order of the monomials and the powers of 1 / f_z.
   template <class FT>
   FT operator()(const std::array<FT, Jet_3<FT>::size>& f, const std::array<FT, 8>& powers) const {
     FT sum(0);
@@ -92,7 +92,7 @@ private:
   };
   std::vector<Term> terms_;
 
-  // The sum while it is built maps the factors of a product, ascending, and the exponent of 1 / f_z to the coefficient.
+  // Maps the sorted factors of a product and the exponent of 1 / f_z to the coefficient.
   using Factors = std::vector<int>;
   using Sum = std::map<std::pair<Factors, int>, int>;
 
@@ -168,7 +168,8 @@ struct Graph_derivatives {
   }
 };
 
-/// Renames the axes cyclically so that `last` becomes z, and returns the derivatives of f by the renamed axes.
+/// Permutes the axes cyclically so that `last` becomes z, and returns the derivatives of f with respect to the new
+/// axes.
 template <class FT>
 std::array<FT, Jet_3<FT>::size> with_last_axis(const std::array<FT, Jet_3<FT>::size>& f, std::size_t last) {
   std::array<FT, Jet_3<FT>::size> r;
@@ -183,7 +184,7 @@ std::array<FT, Jet_3<FT>::size> with_last_axis(const std::array<FT, Jet_3<FT>::s
   return r;
 }
 
-/// The affine normal xi of section 2(d), each component with its derivatives by x and y.
+/// The affine normal xi of section 2(d), each component with its derivatives with respect to x and y.
 template <class FT>
 auto normal_of_graph(const Graph_derivatives<FT>& graph) {
   using std::sqrt;
@@ -202,8 +203,8 @@ auto normal_of_graph(const Graph_derivatives<FT>& graph) {
   return std::array{factor * xi1, factor * xi2, factor * xi3};
 }
 
-/// The direct method of section 2 with the given axis (0, 1, 2) in the role of z. About 2,200 operations. Not finite
-/// where that component of the gradient vanishes.
+/// The direct method of section 2, with the given axis (0, 1, 2) as z. About 2,200 operations. Not finite if that
+/// component of the gradient vanishes.
 template <class FT>
 Affine_estimate_3<FT> direct_estimate(const Jet_3<FT>& jet, std::size_t axis) {
   using std::abs;
@@ -223,7 +224,7 @@ Affine_estimate_3<FT> direct_estimate(const Jet_3<FT>& jet, std::size_t axis) {
   const FT b11 = -determinant(xi_x, tangent_y, xi) / a4, b12 = -determinant(tangent_x, xi_x, xi) / a4;
   const FT b21 = -determinant(xi_y, tangent_y, xi) / a4, b22 = -determinant(tangent_x, xi_y, xi) / a4;
 
-  const FT sign = f[3] < FT(0) ? FT(-1) : FT(1); // the paper orients along the axis, we along the gradient
+  const FT sign = f[3] < FT(0) ? FT(-1) : FT(1); // the paper orients along the axis, this library along the gradient
   const std::array<FT, 3> conormal = {-g[1][0] / a4, -g[0][1] / a4, FT(1) / a4};
   Affine_estimate_3<FT> r;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -235,12 +236,12 @@ Affine_estimate_3<FT> direct_estimate(const Jet_3<FT>& jet, std::size_t axis) {
   return r;
 }
 
-// Section 3 of the paper: an affine map after which the gradient is (0, 0, 1) and f_xy = 0, and formulas for that case.
+// Section 3 of the paper: formulas after an affine map that makes the gradient (0, 0, 1) and f_xy zero.
 
 template <class FT>
 using Matrix_3 = std::array<std::array<FT, 3>, 3>;
 
-/// The number of the monomial that is the product of the given variables: 0 is x, 1 is y, 2 is z.
+/// The index of the monomial that is the product of the given variables (0: x, 1: y, 2: z).
 constexpr std::size_t monomial_of(auto... variables) {
   std::array<int, 3> exponents{};
   (++exponents[variables], ...);
@@ -289,7 +290,7 @@ struct Simplifying_map_3 {
         for (std::size_t b = 0; b < 3; ++b) sum = sum + f[monomial_of(a, b)] * inverse[a][i] * inverse[b][j];
       return sum;
     };
-    // R2 turns by theta with tan 2 theta = -2 f_xy / (f_xx - f_yy), which takes f_xy away.
+    // R2 rotates by theta with tan 2 theta = -2 f_xy / (f_xx - f_yy), which makes f_xy zero.
     const FT theta = atan2(FT(-2) * second(0, 1), FT(second(0, 0) - second(1, 1))) / FT(2);
     turn(cos(theta), sin(theta));
   }
@@ -312,7 +313,7 @@ private:
   }
 };
 
-/// The derivatives of f(A^-1 p), by equation (4) of the paper without any rearrangement.
+/// The derivatives of f(A^-1 p), by equation (4) of the paper without simplification.
 template <class FT>
 std::array<FT, Jet_3<FT>::size> mapped_derivatives(const std::array<FT, Jet_3<FT>::size>& f,
                                                    const Matrix_3<FT>& inverse) {
@@ -347,7 +348,7 @@ std::array<FT, Jet_3<FT>::size> mapped_derivatives(const std::array<FT, Jet_3<FT
   return g;
 }
 
-/// The formulas of section 3(b), which hold where f_x = f_y = f_xy = 0 and f_z = 1; on demand with x and y exchanged.
+/// The formulas of section 3(b) for f_x = f_y = f_xy = 0 and f_z = 1, with x and y exchanged if `exchanged`.
 template <class FT>
 struct Simplified_formulas_3 {
   const std::array<FT, Jet_3<FT>::size>& f;
@@ -389,7 +390,7 @@ struct Simplified_formulas_3 {
   }
 };
 
-/// The transformation method of section 3. About 7,900 operations, of which 7,335 map the derivatives.
+/// The transformation method of section 3. About 7,900 operations, of which 7,335 transform the derivatives.
 template <class FT>
 Affine_estimate_3<FT> transformation_estimate(const Jet_3<FT>& jet) {
   using std::abs;
@@ -414,8 +415,8 @@ Affine_estimate_3<FT> transformation_estimate(const Jet_3<FT>& jet) {
   return r;
 }
 
-/// Returns the jet of f times a power of 2 that makes the largest |f_i| about 1: the paper's formulas raise derivatives
-/// to the power of 7 and more, which soon leaves the range of FT. The surface does not depend on the factor.
+/// Scales the jet of f by a power of 2 so that the largest |f_i| is about 1. The paper's formulas raise derivatives to
+/// the power of 7 and more, which easily leaves the range of FT. The surface does not depend on the factor.
 template <class FT>
 Jet_3<FT> with_gradient_about_one(Jet_3<FT> jet) {
   using std::abs;
@@ -434,7 +435,7 @@ Jet_3<FT> with_gradient_about_one(Jet_3<FT> jet) {
 
 } // namespace internal
 
-/// Computes co-normal, normal and curvatures by the given estimator. They are not finite where they do not exist.
+/// Computes co-normal, normal and curvatures by the given estimator. They are not finite if they do not exist.
 template <class FT>
 Affine_estimate_3<FT> affine_estimate(const Jet_3<FT>& jet_of_any_size, Estimator estimator) {
   using std::abs;
@@ -454,9 +455,9 @@ Affine_estimate_3<FT> affine_estimate(const Jet_3<FT>& jet_of_any_size, Estimato
   }
 }
 
-/// Does the same as local_structure(jet, point, rounding), but the co-normal, normal, Gaussian and mean curvature of
-/// the affine structure are those of the given estimator. If only the estimator fails, as DIRECT_Z does where f_z is
-/// zero or nearly so, the status is OUTSIDE, and all numbers are NaN.
+/// Equivalent to local_structure(jet, point, rounding), except that the co-normal, normal, Gaussian and mean curvature
+/// of the affine structure come from the given estimator. If only the estimator fails, as DIRECT_Z does if f_z is zero
+/// or almost zero, the status is OUTSIDE and all numbers are NaN.
 template <class FT>
 Local_structure_3<FT> local_structure(const Jet_3<FT>& jet, const std::array<FT, 3>& point, const FT& rounding,
                                       Estimator estimator) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of points of CGAL, with the numbers at them as property maps.
+// Reads and writes points of CGAL, with their attributes as property maps.
 #ifndef EQUIAFFINE_IO_POINT_FILES_H
 #define EQUIAFFINE_IO_POINT_FILES_H
 
@@ -22,18 +22,20 @@
 
 namespace equiaffine::IO {
 
-/// Adds the points of a file, `.ply`, `.off`, `.obj`, `.stl`, `.xyz` or `.csv`, to a CGAL::Point_set_3 with property
-/// maps for the numbers at them, and returns the comments of the file: NAME of double for each column NAME, of Vector_3
-/// for three columns NAME_x, NAME_y, NAME_z, `normal` for nx, ny, nz, and `status` of Point_status. Maps that are
-/// given are filled instead; they are those of annotate() and annotate_by_fit() but `vertex_structure_map`. A container
-/// of points with `push_back` gets the points alone.
+/// Adds the points of a `.ply`, `.off`, `.obj`, `.stl`, `.xyz`, or `.csv` file to a CGAL::Point_set_3 with property
+/// maps for their attributes, and returns the comments of the file. The maps are NAME of double for each column NAME,
+/// NAME of Vector_3 for three columns NAME_x, NAME_y, NAME_z, `normal` for nx, ny, nz, and `status` of Point_status.
+/// If maps are given, they are filled instead; they are those of annotate() and annotate_by_fit() except
+/// `vertex_structure_map`. A container of points with `push_back` gets only the points.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
 /// | `vertex_status_map` and so on | writable property maps | none | see annotate() and annotate_by_fit() |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
-/// \throw Input_error if the file cannot be read, or has no numbers for a map. The points are there then.
+/// `geom_traits` and `verbose` are accepted for compatibility with CGAL and ignored.
+///
+/// \throw Input_error if the file cannot be read, or has no numbers for a map; in the latter case the points have
+/// been added
 template <std::ranges::forward_range Points, internal::Parameter_chain... Parameters>
 std::vector<std::string> read_points(const std::string& path, Points& points, const Parameters&... given) {
   internal::check_map_file_parameters<internal::Joined_parameters<Parameters...>>();
@@ -48,24 +50,26 @@ std::vector<std::string> read_points(const std::string& path, Points& points, co
   return comments;
 }
 
-/// Writes points with the numbers at them as `.ply` or `.csv`: those that a CGAL::Point_set_3 has under names, whose
-/// values are numbers or Vector_3, or those of the maps that are given. The file is written whole or not at all.
+/// Writes points with their attributes as `.ply` or `.csv`: the named maps of a CGAL::Point_set_3 whose values are
+/// numbers or Vector_3, or the maps that are given; they are those of annotate() and annotate_by_fit() except
+/// `vertex_structure_map`. The file is written completely or not at all.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
 /// | `point_map` | property map | the elements, or that of the range | from elements to points |
 /// | `vertex_status_map` and so on | readable property maps | none | see annotate() and annotate_by_fit() |
-/// | `comments` | range of std::string | none | lines that PLY keeps |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+/// | `comments` | range of std::string | none | comments of a PLY file |
 ///
-/// \throw Input_error if the file cannot be written, its format is not known, or two columns would have one name.
-/// \throw std::invalid_argument if a coordinate is not finite.
+/// `geom_traits` and `verbose` are accepted for compatibility with CGAL and ignored.
+///
+/// \throw Input_error if the file cannot be written, its format is unknown, or two columns would have the same name
+/// \throw std::invalid_argument if a coordinate is not finite
 template <std::ranges::forward_range Points, internal::Parameter_chain... Parameters>
 void write_points(const std::string& path, Points&& points, const Parameters&... given) {
   internal::check_map_file_parameters<internal::Joined_parameters<Parameters...>, internal::Point_tag,
                                       internal::Comments_tag>();
   if (!has_extension(path, ".ply") && !has_extension(path, ".csv"))
-    throw Input_error("cannot write '" + path + "': points are written as .ply or .csv");
+    throw Input_error("cannot write '" + path + "': points can only be written as .ply or .csv");
   const auto parameters = internal::joined_parameters(given...);
   const auto point_of = point_of_element(points, parameters);
   Indexed_polygons mesh;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads points, with or without faces, from CSV, XYZ, PLY, OFF, OBJ or STL, as the name of a file says, with all that
-// came with them, and writes them to CSV with more columns.
+// Reads points, with or without faces and attributes, from CSV, XYZ, PLY, OFF, OBJ, or STL files, and writes them to
+// CSV with additional columns.
 #ifndef EQUIAFFINE_IO_READ_POINTS_H
 #define EQUIAFFINE_IO_READ_POINTS_H
 
@@ -26,11 +26,11 @@
 
 namespace equiaffine::internal {
 
-/// The functions that a reader calls with the elements of a file, so that a mesh of any kernel can be made of them.
+/// The functions that a reader calls with the elements of a file, so that the readers do not depend on the kernel.
 struct Mesh_receiver {
-  std::function<void(std::size_t points, std::size_t faces)> reserve; ///< before the points, with what is announced
+  std::function<void(std::size_t points, std::size_t faces)> reserve; ///< before the points, with the declared numbers
   std::function<void(double x, double y, double z)> add_point;
-  std::function<void(const std::vector<std::uint32_t>& face)> add_face; ///< positions of points that were added
+  std::function<void(const std::vector<std::uint32_t>& face)> add_face; ///< indices of points that were added
 };
 
 /// Adds the points to a mesh, and the faces as triangles.
@@ -44,36 +44,36 @@ Mesh_receiver receiver_of(Indexed_triangle_mesh_3<Kernel>& mesh) {
           [&](const std::vector<std::uint32_t>& face) { add_triangles_of_polygon(mesh.points, face, mesh.triangles); }};
 }
 
-/// The header, the cells and the columns of a table of points.
+/// The header, the cells, and the columns of a table of points.
 struct Csv_cells {
-  std::vector<std::string> header, cells; ///< the cells are as they were written, row by row
+  std::vector<std::string> header, cells; ///< the cells as written, row by row
   char separator = ',';
-  std::vector<Vertex_attributes::Column> columns; ///< those all of whose cells are numbers
+  std::vector<Vertex_attributes::Column> columns; ///< those in which all cells are numbers
 };
 
-// The library defines these functions. `name` stands for the file in messages.
+// These functions are compiled into the library. `name` is the name of the file in messages.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 
-/// Reads PLY, and returns what comes with the points.
+/// Reads PLY, and returns the attributes of the points.
 Vertex_attributes read_PLY_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
 
-/// Reads OFF, OBJ or STL.
+/// Reads OFF, OBJ, or STL.
 void read_OFF_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
 void read_OBJ_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
 void read_STL_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
 
-/// Reads XYZ, and returns what comes with the points.
+/// Reads XYZ, and returns the attributes of the points.
 Vertex_attributes read_XYZ_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
 
 /// Reads CSV.
 Csv_cells read_CSV_elements(std::istream& stream, const std::string& name, const Mesh_receiver& receiver);
 
-/// The extension of a file that begins with this text: `.ply` or `.off` if the first word says so, otherwise `.csv`.
+/// The extension of a file with the given text: `.ply` or `.off` depending on its first word, otherwise `.csv`.
 const char* extension_of_text(std::string_view text);
 
-/// The columns of a file that stay when `attributes` are written beside them: those of other names.
+/// The columns of a file that are not replaced by `attributes`, because their names differ.
 std::vector<std::size_t> columns_to_keep(const std::vector<std::string>& header, const Vertex_attributes& attributes);
 
 #ifdef EQUIAFFINE_SHARED
@@ -84,9 +84,8 @@ std::vector<std::size_t> columns_to_keep(const std::vector<std::string>& header,
 
 namespace equiaffine {
 
-/// Points as they came from a file. `attributes` holds the columns of numbers other than x, y, z. From CSV there are
-/// also the names of all columns, the cells as they were written (blanks and quotes included), row by row, and the
-/// character between them.
+/// Points read from a file. `attributes` has the columns of numbers other than x, y, z. For CSV there are also the
+/// names of all columns, the cells as written (including blanks and quotes), and the separator.
 template <class Kernel>
 struct Point_table_3 : Annotated_mesh_3<Kernel> {
   std::vector<std::string> header = {}; ///< names of the columns
@@ -94,10 +93,10 @@ struct Point_table_3 : Annotated_mesh_3<Kernel> {
   char separator = ',';                 ///< the character between cells
 };
 
-/// Reads a CSV file whose header names x, y, z (or X, Y, Z) in any places. Cells are separated by commas, semicolons or
-/// tabs, whatever the header has most. `name` stands for the file in messages. Throws
-/// `Input_error` with line and column for a cell that is missing, and for a coordinate that is not a number. The words
-/// nan and inf are numbers: no function has a value at such a point.
+/// Reads a CSV file whose header contains x, y, z (or X, Y, Z) anywhere. The separator is a comma, a semicolon, or a
+/// tab, whichever is most frequent in the header. `name` is the name of the file in messages. The words nan and inf
+/// count as numbers; functions have no value at such a point. Throws `Input_error` with line and column for a missing
+/// cell, or a coordinate that is not a number.
 template <class Kernel>
 Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
   Point_table_3<Kernel> table;
@@ -110,8 +109,9 @@ Point_table_3<Kernel> read_CSV(std::istream& stream, const std::string& name) {
 }
 
 /// Reads PLY (text or binary): the points, every other scalar property of the vertices as a column, `uchar status` as
-/// the status, the comments, and the faces, if any, cut into triangles. Lists at vertices and other elements are left
-/// out. `name` stands for the file in messages. Throws `Input_error` for what is not a complete PLY file.
+/// the status, the comments, and the faces, if any, which are triangulated. Ignores list properties of vertices and
+/// other elements. `name` is the name of the file in messages. Throws `Input_error` unless the file is a complete PLY
+/// file.
 template <class Kernel>
 Annotated_mesh_3<Kernel> read_PLY(std::istream& stream, const std::string& name) {
   Annotated_mesh_3<Kernel> result;
@@ -119,8 +119,8 @@ Annotated_mesh_3<Kernel> read_PLY(std::istream& stream, const std::string& name)
   return result;
 }
 
-/// Reads OFF as text, a line for each vertex and face: points and faces, the latter cut into triangles. Normals and
-/// colors are left out. `name` stands for the file in messages. Throws `Input_error` for what is not a complete file.
+/// Reads the points and faces of a text OFF file with one line per vertex and face. Faces are triangulated. Ignores
+/// normals and colors. `name` is the name of the file in messages. Throws `Input_error` unless the file is complete.
 template <class Kernel>
 Indexed_triangle_mesh_3<Kernel> read_OFF(std::istream& stream, const std::string& name) {
   Indexed_triangle_mesh_3<Kernel> mesh;
@@ -128,9 +128,9 @@ Indexed_triangle_mesh_3<Kernel> read_OFF(std::istream& stream, const std::string
   return mesh;
 }
 
-/// Reads OBJ: points and faces, the latter cut into triangles. Normals, textures, colors, lines and groups are left
-/// out. `name` stands for the file in messages. Throws `Input_error` for what is not an OBJ file, and for faces with
-/// vertices that do not exist.
+/// Reads OBJ: points and faces, which are triangulated. Ignores normals, textures, colors, lines, and groups. `name`
+/// is the name of the file in messages. Throws `Input_error` if the file is not an OBJ file, or has faces with
+/// nonexistent vertices.
 template <class Kernel>
 Indexed_triangle_mesh_3<Kernel> read_OBJ(std::istream& stream, const std::string& name) {
   Indexed_triangle_mesh_3<Kernel> mesh;
@@ -138,8 +138,8 @@ Indexed_triangle_mesh_3<Kernel> read_OBJ(std::istream& stream, const std::string
   return mesh;
 }
 
-/// Reads STL, binary or text: triangles, whose corners with the same coordinates become one point. Normals are left
-/// out. `name` stands for the file in messages. Throws `Input_error` for what is not a complete file.
+/// Reads the triangles of a binary or text STL file; corners with equal coordinates become one point. Ignores normals.
+/// `name` is the name of the file in messages. Throws `Input_error` unless the file is complete.
 template <class Kernel>
 Indexed_triangle_mesh_3<Kernel> read_STL(std::istream& stream, const std::string& name) {
   Indexed_triangle_mesh_3<Kernel> mesh;
@@ -147,14 +147,15 @@ Indexed_triangle_mesh_3<Kernel> read_STL(std::istream& stream, const std::string
   return mesh;
 }
 
-/// The comment that points of an XYZ file get whose columns 4 to 6 have no names and are no normals.
-inline constexpr const char* xyz_colors_note = "columns 4 to 6 are colors, not normals, which would have the length 1";
+/// A comment added to the points of an XYZ file if its columns 4 to 6 have no names and are not normals.
+inline constexpr const char* xyz_colors_note = "columns 4 to 6 are colors; normals would have length 1";
 
-/// Reads points as lines of x y z, or of x y z and three numbers, with blanks between the numbers. The three numbers
-/// are normals, columns nx, ny, nz, if their lengths are 1 or nearly, else colors, columns red, green, blue, which a
-/// comment of the result says. A first line such as `//X Y Z R G B`, as CloudCompare writes it, or `# x y z intensity`
-/// names any columns. Other lines behind // or # and empty lines are left out. `name` stands for the file in messages.
-/// Throws `Input_error` for another line, and for numbers that are neither normals nor colors.
+/// Reads points as lines of x y z, or of x y z and three more numbers, separated by blanks. The three numbers are read
+/// as normals (columns nx, ny, nz) if their length is about 1, and otherwise as colors (columns red, green, blue); in
+/// the latter case, a comment of the result says so. A first line such as `//X Y Z R G B`, as written by CloudCompare,
+/// or `# x y z intensity` names any columns. Ignores empty lines and other lines that begin with // or #. `name` is the
+/// name of the file in messages. Throws `Input_error` for any other line, and for numbers that are neither normals nor
+/// colors.
 template <class Kernel>
 Annotated_mesh_3<Kernel> read_XYZ(std::istream& stream, const std::string& name) {
   Annotated_mesh_3<Kernel> result;
@@ -162,8 +163,8 @@ Annotated_mesh_3<Kernel> read_XYZ(std::istream& stream, const std::string& name)
   return result;
 }
 
-/// Reads points in the format that the end of `extension` stands for, `.csv`, `.ply`, `.off`, `.obj`, `.stl` or `.xyz`.
-/// `name` stands for the file in messages. Throws `Input_error` for what is not a complete file of the format.
+/// Reads points in the format of `extension`, which ends with `.csv`, `.ply`, `.off`, `.obj`, `.stl`, or `.xyz`.
+/// `name` is the name of the file in messages. Throws `Input_error` unless the file is complete and in this format.
 template <class Kernel>
 Point_table_3<Kernel> read_points(std::istream& stream, const std::string& name, std::string_view extension) {
   if (has_extension(extension, ".csv")) return read_CSV<Kernel>(stream, name);
@@ -175,7 +176,8 @@ Point_table_3<Kernel> read_points(std::istream& stream, const std::string& name,
   internal::fail_to_read(name, "its extension is not known", "use one of .csv .ply .off .obj .stl .xyz");
 }
 
-/// Reads points from such a file, or from standard input for "-": PLY or OFF if the first word says so, otherwise CSV.
+/// Reads points from the file at `path`, in the format of its extension, or from standard input for "-": PLY or OFF
+/// depending on the first word, otherwise CSV.
 template <class Kernel>
 Point_table_3<Kernel> read_points(const std::string& path) {
   if (path == "-") {
@@ -188,21 +190,21 @@ Point_table_3<Kernel> read_points(const std::string& path) {
   return read_points<Kernel>(file, path, path);
 }
 
-// The library defines this function.
+// This function is compiled into the library.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 
-/// The columns of `first` that `second` does not have, then those of `second`; the status of `second` if it has one.
-/// Comments likewise: those with the same text before the colon are replaced.
+/// Returns the columns of `first` that `second` does not have, followed by those of `second`, and the status of
+/// `second`, or that of `first` if it has none. Comments with the same text before the colon are replaced likewise.
 Vertex_attributes merge_attributes(Vertex_attributes first, const Vertex_attributes& second);
 
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility pop
 #endif
 
-/// Writes the rows of `table` as they came, with their separator, then the columns of `attributes` and the status;
-/// these replace columns of the same names.
+/// Writes the rows of `table`, with their separator and with every cell as it was read, followed by the columns of
+/// `attributes` and the status; columns of `table` with the same names are left out.
 template <class Kernel>
 void write_CSV(std::ostream& stream, const Point_table_3<Kernel>& table, const Vertex_attributes& attributes) {
   if (table.header.empty()) return write_CSV(stream, table.mesh.points, merge_attributes(table.attributes, attributes));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes points and the numbers at them as CSV, at once or part by part.
+// Writes points and their attributes as CSV, at once or in parts.
 #ifndef EQUIAFFINE_IO_WRITE_CSV_H
 #define EQUIAFFINE_IO_WRITE_CSV_H
 
@@ -14,16 +14,16 @@
 #include <span>
 #include <vector>
 
-// The library defines the function that has no body here.
+// The function without a body is compiled into the library.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 namespace equiaffine::internal {
 
-/// Writes the rest of the header line.
+/// Writes the names of the attributes to complete the header line.
 void write_CSV_names(Buffered_output& out, const Vertex_attributes& attributes, char separator);
 
-/// Writes rows: `write(row)` writes what comes first in a line; the numbers of `attributes` and the word for the status
+/// Writes rows: `write(row)` writes the beginning of a line; the numbers of `attributes` and the word for the status
 /// follow.
 template <class WriteRow>
 void write_CSV_rows(Buffered_output& out, std::size_t number_of_rows, const Vertex_attributes& attributes,
@@ -45,11 +45,10 @@ void write_CSV_rows(Buffered_output& out, std::size_t number_of_rows, const Vert
 
 namespace equiaffine {
 
-/// Writes points with their attributes as CSV part by part: the header, then all points in any number of parts.
+/// Writes points with their attributes as CSV in parts: the header, then all points in any number of parts.
 class Csv_writer {
 public:
-  /// Writes the header. `layout` has the names of the columns, and whether there is a status; what numbers it has does
-  /// not matter.
+  /// Writes the header. Only the names of the columns in `layout` are used, and whether it has a status.
   Csv_writer(std::ostream& stream, const Vertex_attributes& layout) : out_(stream) {
     out_ << "x,y,z";
     internal::write_CSV_names(out_, layout, ',');
@@ -69,8 +68,8 @@ private:
   internal::Buffered_output out_;
 };
 
-/// Writes a line per point after the header `x,y,z,<columns>,status`: numbers with 17 significant digits, `nan` for
-/// those that do not exist, the status as a word. Errors are in the state of the stream.
+/// Writes one line per point after the header `x,y,z,<columns>,status`: numbers with 17 significant digits, `nan` for
+/// missing ones, and the status as a word. Errors are reported by the state of the stream.
 template <class Point_3>
 void write_CSV(std::ostream& stream, const std::vector<Point_3>& points, const Vertex_attributes& attributes = {}) {
   Csv_writer(stream, attributes).write_points(std::span<const Point_3>(points), attributes);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes an indexed mesh and the numbers at its vertices as PLY, OFF, OBJ, STL or CSV, as the name of a file says. Text
-// has 17 significant digits and `nan` for numbers that do not exist. All functions write to a stream, which has to be
-// binary for PLY and STL. Errors are in its state.
+// Writes an indexed mesh and the attributes of its vertices as PLY, OFF, OBJ, STL, or CSV. Text has 17 significant
+// digits, and `nan` for missing numbers. All functions write to a stream, which must be binary for PLY and STL.
+// Errors are reported by its state.
 #ifndef EQUIAFFINE_IO_WRITE_MESH_H
 #define EQUIAFFINE_IO_WRITE_MESH_H
 
@@ -30,7 +30,7 @@ struct Indexed_polygons;
 
 namespace equiaffine::internal {
 
-// Formats that hold polygons. A polygon is a range of positions of points.
+// Formats that hold polygons. A polygon is a range of point indices.
 
 template <class Point, class Polygon>
 void write_PLY_of(std::ostream& stream, const std::vector<Point>& points, const std::vector<Polygon>& polygons,
@@ -76,12 +76,12 @@ void write_OBJ_of(std::ostream& stream, const std::vector<Point>& points, const 
   out.flush();
 }
 
-// The library defines this function.
+// This function is compiled into the library.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 
-/// Writes polygons in the format that the extension of the path stands for, with those numbers that the format holds.
+/// Writes polygons in the format of the path's extension, with the attributes that the format supports.
 void write_polygon_file(const std::string& path, const Indexed_polygons& mesh, const Vertex_attributes& attributes);
 
 #ifdef EQUIAFFINE_SHARED
@@ -92,7 +92,7 @@ void write_polygon_file(const std::string& path, const Indexed_polygons& mesh, c
 
 namespace equiaffine {
 
-/// The formats of files that a mesh is written to.
+/// The file formats for meshes.
 enum class Mesh_format {
   PLY, ///< write_PLY()
   OFF, ///< write_OFF()
@@ -101,7 +101,7 @@ enum class Mesh_format {
   CSV  ///< write_CSV(), without triangles
 };
 
-/// The format that the extension of a path stands for, in lower or upper case, if there is one.
+/// The format of a path's extension, in lower or upper case; nothing if it is unknown.
 inline std::optional<Mesh_format> mesh_format(const std::string& path) {
   constexpr std::array<std::string_view, 5> extensions = {".ply", ".off", ".obj", ".stl", ".csv"};
   for (std::size_t i = 0; i < extensions.size(); ++i)
@@ -117,7 +117,7 @@ void write_PLY(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh
   internal::write_PLY_of(stream, mesh.points, mesh.triangles, attributes);
 }
 
-/// Writes OFF: points and triangles; it holds no attributes.
+/// Writes OFF: points and triangles; attributes are not supported.
 template <class Kernel>
 void write_OFF(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh) {
   internal::write_OFF_of(stream, mesh.points, mesh.triangles);
@@ -130,9 +130,9 @@ void write_OBJ(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh
   internal::write_OBJ_of(stream, mesh.points, mesh.triangles, attributes);
 }
 
-/// Writes STL, binary: triangles in single precision with their own unit normals; it holds no attributes. Those with
-/// two corners that coincide in single precision are left out, so that the mesh of a reader, which joins corners that
-/// coincide, is closed where this one is.
+/// Writes STL, binary: triangles in single precision with their unit normals; attributes are not supported. Triangles
+/// with two corners that coincide in single precision are omitted: a reader joins coinciding corners, so its mesh is
+/// closed where this one is.
 template <class Kernel>
 void write_STL(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh) {
   constexpr std::size_t header_size = 80;
@@ -162,7 +162,7 @@ void write_STL(std::ostream& stream, const Indexed_triangle_mesh_3<Kernel>& mesh
   out.flush();
 }
 
-/// Writes the mesh in the format asked for, with those attributes that the format holds.
+/// Writes the mesh in the given format, with the attributes that the format supports.
 template <class Kernel>
 void write_mesh(std::ostream& stream, Mesh_format format, const Indexed_triangle_mesh_3<Kernel>& mesh,
                 const Vertex_attributes& attributes = {}) {

@@ -38,8 +38,8 @@
 
 namespace equiaffine::internal {
 
-/// A box around the nodes of a block of the lattice and one node around them. Rounding is monotone: no coordinate of a
-/// node, as computed, is outside of those at the corners.
+/// A box around a block of nodes of the lattice and one layer of nodes around it. Because rounding is monotone, no
+/// computed coordinate of a node lies outside those at the corners.
 template <class Kernel>
 CGAL::Bbox_3 box_around(const Lattice_3<Kernel>& lattice, const Node_block& block) {
   using FT = typename Kernel::FT;
@@ -55,21 +55,21 @@ CGAL::Bbox_3 box_around(const Lattice_3<Kernel>& lattice, const Node_block& bloc
           coordinate(0, true),  coordinate(1, true),  coordinate(2, true)};
 }
 
-/// Samples the signs at the nodes of blocks in one thread. Values are computed in batches and not kept.
+/// Samples the signs at the nodes of blocks in one thread. Values are computed in batches and discarded.
 template <class Traits>
 class Block_sampler {
   using FT = typename Traits::FT;
   using Point_3 = typename Traits::Point_3;
   using Function = Lattice_function<Traits>;
   static constexpr bool has_samples = Function::has_samples;
-  static constexpr std::size_t batch = 64, smallest_block = 4; // the number of nodes in all, and along an axis
+  static constexpr std::size_t batch = 64, smallest_block = 4; // nodes in all; nodes along an axis
 
 public:
   Block_sampler(const Function& function, Node_signs& signs) : function_(function), signs_(signs) {}
 
   std::size_t evaluations() const { return evaluations_; }
 
-  /// Samples at all nodes of a block.
+  /// Samples all nodes of a block.
   void sample_all(const Node_block& block) {
     if constexpr (has_samples) return read_samples(block);
     for (std::size_t k = block[2].first; k < block[2].end; ++k)
@@ -78,13 +78,13 @@ public:
           sample_batch(function_.traits(), {{{i, std::min(i + batch, block[0].end)}, {j, j + 1}, {k, k + 1}}});
   }
 
-  /// Halves a block along all its long axes until the function's bounds on the block and one node around it have one
-  /// sign, or the block is small and is sampled. The margin makes every cell that has a node in a skipped block free of
-  /// the surface, also if the function has no value at some nodes there, which its bounds do not show.
+  /// Halves a block along its long axes until the function's bounds on the block and one layer of nodes around it
+  /// have one sign, or the block is small and is sampled. Because of the margin, every cell with a node in a skipped
+  /// block is free of the surface, also if the function has no value at some nodes, which its bounds do not show.
   void sample_near_surface(const Node_block& block) { sample_part(function_.traits(), block); }
 
 private:
-  /// Takes the signs of the samples of a block, all planes at once for the sake of arrays in which k is fastest.
+  /// Reads the signs of the samples of a block, all planes together because k may be the fastest index of the array.
   void read_samples(const Node_block& block) {
     const std::size_t planes = block[2].size();
     std::vector<FT> values(batch * planes);
@@ -97,7 +97,7 @@ private:
       }
   }
 
-  /// Samples a block of which `traits` has the values: deep in the recursion it is a part of the function.
+  /// Samples a block. `traits` has its values; deep in the recursion it is a part of the function.
   void sample_part(const Batch_function_traits_3<Traits>& traits, const Node_block& block) {
     Node_block in_whole = block;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -127,7 +127,7 @@ private:
                                 {k, std::min(k + half, block[2].end)}}});
   }
 
-  /// Samples a block that has no more nodes than a batch, and those of each row in one word of Node_signs.
+  /// Samples a block of at most `batch` nodes whose rows each lie in one word of Node_signs.
   void sample_batch(const Batch_function_traits_3<Traits>& traits, const Node_block& block) {
     const std::size_t n = compute_values(traits, block), row = block[0].size();
     Sign_word signs = sign_word(values_.data(), n, FT(0));
@@ -135,7 +135,7 @@ private:
     for (std::size_t k = block[2].first; k < block[2].end; ++k)
       for (std::size_t j = block[1].first; j < block[1].end; ++j) {
         signs_.set(block[0].first, j, k, {first_bits(signs.positive), first_bits(signs.undefined)});
-        signs.positive >>= row % 64; // a row of 64 is the only one
+        signs.positive >>= row % 64; // a row of 64 is the only row
         signs.undefined >>= row % 64;
       }
   }
@@ -158,14 +158,14 @@ private:
   std::array<FT, batch> values_{};
 };
 
-/// The signs of a function at the nodes of a lattice, and the evaluations that they took.
+/// The signs of a function at the nodes of a lattice, and the number of evaluations.
 struct Sampled_signs {
   Node_signs signs;
   std::size_t evaluations;
 };
 
-/// Whether a function is evaluated near its zero set only: if it has bounds, and not its values at the nodes already.
-/// Functions of other numbers than those of the processor may have constants that do not convert to intervals.
+/// Whether a function is only evaluated near its zero set, because it has bounds and its values at the nodes are not
+/// given. Requires built-in numbers: with others, constants of the function may not convert to intervals.
 template <class Traits>
 inline constexpr bool skips_empty_space =
     BoundedImplicitFunctionTraits_3<Traits> && !Lattice_function<Traits>::has_samples &&
@@ -188,7 +188,7 @@ Sampled_signs sample_signs(const Lattice_function<Traits>& function) {
   return {std::move(signs), std::accumulate(evaluations.begin(), evaluations.end(), std::size_t(0))};
 }
 
-/// Counts the cells that contain the given vertices, which are ordered like their cells.
+/// Counts the cells that contain the given vertices, which are in the order of their cells.
 template <class FT>
 std::size_t number_of_cells(const std::vector<Inner_vertex<FT>>& vertices) {
   std::size_t cells = 0;
@@ -198,7 +198,7 @@ std::size_t number_of_cells(const std::vector<Inner_vertex<FT>>& vertices) {
 }
 
 /// Repairs the mesh, then removes the vertices at poles, which the repairs may renumber. `properties` are arrays with
-/// an entry per vertex.
+/// one entry per vertex.
 template <class Function, class FT, class Kernel, class... Properties>
 Repair_report repair_and_remove_poles(const Function& function, const Isosurface_plan& plan,
                                       const std::vector<Inner_vertex<FT>>& inner_vertices, const Grid_rows& suspects,
@@ -217,17 +217,17 @@ Repair_report repair_and_remove_poles(const Function& function, const Isosurface
   return report;
 }
 
-/// A surface, with what is needed to take it apart. Where the lattice is cut, `is_undecided` says that a larger part of
-/// it has to be known.
+/// A surface, and the bounds of its layers. `is_undecided` is true if repairs at a cut of the lattice depend on a
+/// larger part of it.
 template <class Kernel>
 struct Isosurface_in_layers {
   Isosurface_3<Kernel> surface;
   Layer_bounds bounds;
   bool is_undecided;
-  std::vector<Vertex_id> ids; ///< of the vertices, if they were asked for
+  std::vector<Vertex_id> ids; ///< of the vertices, if requested
 };
 
-/// Computes the surface of a function on a lattice, or on a part of it: first the topology from the signs and values at
+/// Computes the surface of a function on a lattice or a part of it: first the topology from the signs and values at
 /// the nodes, then the vertices.
 template <class ConcurrencyTag, bool WithIds = false, class Traits>
 Isosurface_in_layers<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_function<Traits>& function,
@@ -275,14 +275,15 @@ Isosurface_in_layers<Kernel_of<Traits>> isosurface_on_lattice(const Lattice_func
     ids = vertex_ids<ConcurrencyTag>(function, plan, inner_vertices);
     return repair(ids);
   }();
-  tell_copies_apart(ids);
+  distinguish_copies(ids);
   surface.repairs = report;
   surface.repairs.flips_undone = flips_undone;
   surface.projection_seconds = timer.time() - surface.sampling_seconds;
   return {std::move(surface), std::move(bounds), report.is_undecided, std::move(ids)};
 }
 
-/// A function on its own lattice, or on one with the nodes that the options say. \throw Input_error for bad options
+/// A function on its own lattice, or on a lattice with the resolution of the options. \throw Input_error for bad
+/// options
 template <class Traits>
 Lattice_function<Traits> on_lattice(const Traits& traits, const Marching_cubes_options& options) {
   options.check();
@@ -304,26 +305,27 @@ namespace equiaffine {
 /// positive. The grid is the lattice of a model of LatticeImplicitFunctionTraits_3, else
 /// `sampling_lattice(traits, options.resolution.nodes())`.
 ///
-/// The mesh is an oriented 2-manifold for every input, with boundary where the surface leaves the grid or meets a node
-/// without a value (NaN); parts that touch there have vertices of their own. Normals point along the gradient. The
-/// topology is exactly that of the zero set of the trilinear interpolant of the values, where zero counts as positive.
-/// To have it, ambiguous cells get vertices inside for a tunnel or a curved disc. Projection does not change the
-/// topology: a move that would turn a triangle over or leave it without area is undone. Where the surface passes
+/// The mesh is an oriented 2-manifold for every input, with boundary where the surface leaves the grid or meets a
+/// node without a value (NaN); parts that touch there have separate vertices. Normals point along the gradient. The
+/// topology is exactly that of the zero set of the trilinear interpolant of the values, where zero counts as
+/// positive. For this, ambiguous cells get inner vertices for a tunnel or a curved disc. Projection does not change
+/// the topology: a move that would flip a triangle or leave it without area is undone. Where the surface passes
 /// through nodes, triangles without area are contracted or opened, and components without area are dropped. `repairs`
-/// counts all this. Parts of the surface that cross no edge of the grid are not found.
+/// counts these changes. Parts of the surface that cross no edge of the grid are not found.
 ///
-/// Where the sign changes along an edge at a pole, which projection finds since |f| grows towards it, the vertex is
-/// removed with the triangles around it: the surface ends there, and the mesh is empty if there are only poles. So it
-/// is where f, or its derivatives, cease to exist between two nodes and no zero is found. With LINEAR vertices poles
-/// are not told from zeros. A vertex that could not be projected, as at a jump, stays at its linear position, is
-/// UNCONVERGED, and may be far from the surface.
+/// Where the sign changes along an edge at a pole, which projection detects because |f| grows toward it, the vertex
+/// is removed with the triangles around it. The surface ends there, and the mesh is empty if there are only poles.
+/// The same holds where f or its derivatives become undefined between two nodes and no zero is found. With LINEAR
+/// vertices, poles are not distinguished from zeros. A vertex that could not be projected, for example at a jump,
+/// stays at its linear position, is UNCONVERGED, and may be far from the surface.
 ///
-/// Empty space is skipped if the function is a model of BoundedImplicitFunctionTraits_3 and has built-in numbers: f is
-/// evaluated near its zero set only. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for
-/// bit. Takes one evaluation per node (if empty space is skipped, per node near the surface), and per vertex 4 more and
-/// 4 to 6 with gradient. The memory in use is the output, one bit per node, and a buffer for some planes of nodes.
+/// Empty space is skipped if the function is a model of BoundedImplicitFunctionTraits_3 and has built-in numbers: f
+/// is only evaluated near its zero set. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit
+/// for bit. Takes one evaluation per node (near the surface only, if empty space is skipped), and 4 more plus 4 to 6
+/// with gradient per vertex. The memory is that of the output, one bit per node, and a buffer for some planes of
+/// nodes.
 ///
-/// The named parameters `geom_traits` and `verbose` are accepted for compatibility with CGAL; ignored.
+/// The named parameters `geom_traits` and `verbose` are accepted for compatibility with CGAL and ignored.
 /// \throw Input_error for bad options
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits,
           internal::Parameter_chain... Parameters>
@@ -334,8 +336,8 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const March
   return internal::isosurface_of<ConcurrencyTag>(traits, options);
 }
 
-/// The same for the level set f = isovalue, whose points and triangles are added to containers of the caller: see
-/// to_polygon_soup(). The result has no mesh, but the rest: what was repaired, and the status of each point.
+/// The same for the level set f = isovalue. Its points and triangles are appended to the caller's containers, see
+/// to_polygon_soup(). The result has no mesh, only the repairs, the status of each point, and the statistics.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Points, class Triangles,
           internal::Parameter_chain... Parameters>
 Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const typename Traits::FT& isovalue,
@@ -348,8 +350,8 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, const typen
   return internal::without_mesh(std::move(surface));
 }
 
-/// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph: see to_face_graph(). Vertices are
-/// made in the order of the points, which is that of `vertex_status` in the result. Further named parameters are
+/// The same for the zero set, which is added to a model of CGAL's MutableFaceGraph, see to_face_graph(). Vertices are
+/// created in the order of `vertex_status` in the result. Further named parameters are
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
@@ -368,7 +370,7 @@ Isosurface_3<Kernel_of<Traits>> marching_cubes(const Traits& traits, Graph& grap
 }
 
 /// \cond
-// A call that is mistaken, see explain_sampler.h.
+// Explains wrong arguments, see explain_sampler.h.
 template <class ConcurrencyTag = CGAL::Sequential_tag, class Traits, class... Others>
 void marching_cubes(const Traits&,
                     const Others&...) requires Mistaken_for_sampler<Marching_cubes_options, Traits, Others...> {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Marching Cubes in slabs of a lattice, for meshes that are larger than memory, and in blocks of its cells.
+// Marching Cubes in slabs of a lattice, for meshes larger than memory, and in blocks of its cells.
 #ifndef EQUIAFFINE_MARCHING_CUBES_MARCHING_CUBES_IN_SLABS_H
 #define EQUIAFFINE_MARCHING_CUBES_MARCHING_CUBES_IN_SLABS_H
 
@@ -28,57 +28,58 @@
 namespace equiaffine {
 
 /// The part of a mesh between planes of nodes: the vertices on edges that begin in the planes from `first_plane` to
-/// `end_plane` - 1, and in the cells above these, with the triangles of these cells. What a slab has follows in the
-/// whole mesh on what the slab before has.
+/// `end_plane` - 1 and in the cells above these, and the triangles of these cells. In the whole mesh, the vertices
+/// and triangles of a slab directly follow those of the previous slab.
 ///
-/// For the mesh of a block of cells `first_plane` and `end_plane` number layers of cells, the triangles are those that
-/// belong to them, and the vertices are those of these triangles that no slab before has.
+/// For the mesh of a block of cells, `first_plane` and `end_plane` are layers of cells. The triangles are those of
+/// these layers, and the vertices are those of the triangles that no earlier slab contains.
 template <class Kernel>
 struct Isosurface_slab_3 {
-  std::size_t first_plane;                      ///< the first plane of nodes, numbered along k
-  std::size_t end_plane;                        ///< the plane of nodes behind the last one
-  std::size_t first_vertex;                     ///< the number in the whole mesh of the first vertex
-  std::size_t first_triangle;                   ///< the number in the whole mesh of the first triangle
+  std::size_t first_plane;                      ///< the first plane of nodes along k
+  std::size_t end_plane;                        ///< one past the last plane of nodes
+  std::size_t first_vertex;                     ///< the index of the first vertex in the whole mesh
+  std::size_t first_triangle;                   ///< the index of the first triangle in the whole mesh
   std::vector<typename Kernel::Point_3> points; ///< of the vertices
   std::vector<Point_status> vertex_status;      ///< one per point, as in Isosurface_3
-  /// The numbers in the whole mesh of three vertices each, which are of this slab, of the next one, or of earlier ones.
+  /// Three vertex indices each, in the whole mesh: vertices of this slab, the next one, or earlier ones.
   std::vector<std::array<std::size_t, 3>> triangles;
-  /// One per point, for the mesh of a block of cells.
+  /// The id of each point, for the mesh of a block of cells.
   std::vector<Vertex_id> vertex_ids = {};
-  /// The least id in the triangles of the whole mesh at each point, with vertex ids. Of the blocks that have a vertex,
-  /// one has the cell of this id: to that block the vertex belongs.
+  /// For the mesh of a block of cells, the smallest id in the triangles of the whole mesh at each point. The vertex
+  /// belongs to the block that contains the cell of this id.
   std::vector<Vertex_id> least_ids = {};
 };
 
-/// The numbers of a mesh that was made slab by slab are counted here.
+/// Totals of a mesh that was computed slab by slab.
 struct Isosurface_totals {
   std::size_t vertices = 0;             ///< of the whole mesh
   std::size_t triangles = 0;            ///< of the whole mesh
-  std::size_t function_evaluations = 0; ///< of f, with or without derivatives; more than one for nodes near seams
+  std::size_t function_evaluations = 0; ///< of f, with or without derivatives; repeated for nodes near seams
 };
 
-/// The number of cells around a block of cells that must be known for its part of a mesh.
+/// The number of layers of cells around a block that must be known to mesh the block.
 inline constexpr std::size_t cells_around_block = 4;
 
 } // namespace equiaffine
 
 namespace equiaffine::internal {
 
-/// \throw std::invalid_argument unless a block has cells of a lattice, and those around it are known
+/// \throw std::invalid_argument unless a block is not empty, lies in the lattice, and enough cells around it are
+/// known
 inline void check_block(const Cell_block& all, const Cell_block& block, const Cell_block& known) {
   const Cell_block needed = widened(block, cells_around_block, all);
   for (std::size_t a = 0; a < 3; ++a) {
     check_argument(block.first[a] < block.end[a] && block.end[a] <= all.end[a],
-                   "a block has no cells, or has some beyond the lattice: choose cells of the lattice");
+                   "a block has no cells or extends beyond the lattice: choose cells of the lattice");
     check_argument(known.first[a] <= needed.first[a] && needed.end[a] <= known.end[a] && known.end[a] <= all.end[a],
-                   "fewer cells of the lattice are known than the mesh of a block needs: let `cells_around_block` "
-                   "around it be known");
+                   "too few cells around a block are known to mesh it: give `cells_around_block` on each side, or all "
+                   "up to the end of the lattice");
   }
 }
 
-/// Makes the part of a surface that belongs to a block of cells, in slabs. To which cell a triangle belongs follows
-/// from the ids of its vertices, whatever it was repaired to, so that blocks need not know of each other. A slab is
-/// made with some cells more on all sides, as many as the repairs beside it look at.
+/// Computes the part of a surface that belongs to a block of cells, in slabs. The ids of a triangle's vertices
+/// determine the cell to which it belongs, also after repairs, so that blocks are independent of each other. A slab
+/// is computed with a margin of cells on all sides, as wide as the repairs near it require.
 template <class ConcurrencyTag, class Traits>
 class Isosurface_of_block {
   using Kernel = Kernel_of<Traits>;
@@ -86,7 +87,7 @@ class Isosurface_of_block {
   using Part = Isosurface_in_layers<Kernel>;
 
 public:
-  /// The function may be evaluated in the cells that are `known`.
+  /// The function may only be evaluated in the `known` cells.
   Isosurface_of_block(const Lattice_function<Traits>& function, const Slab_options& options, const Cell_block& block,
                       const Cell_block& known)
       : function_(function), position_(options.sampling.vertices), layers_per_slab_(options.planes_per_slab),
@@ -104,7 +105,7 @@ public:
   }
 
 private:
-  /// A vertex of slabs before that the next one may have, too.
+  /// A vertex of earlier slabs that the next slab may share.
   struct Shared_vertex {
     std::size_t number;
     Point_3 point;
@@ -122,7 +123,7 @@ private:
     }
   }
 
-  /// Whether the vertices that slabs before have are the same here, or are not here.
+  /// Whether the vertices of earlier slabs have the same positions here, or do not occur.
   bool agrees_with_slabs_before(const Part& part) const {
     if (shared_.empty()) return true;
     for (std::size_t v = 0; v < part.ids.size(); ++v)
@@ -177,8 +178,9 @@ private:
   std::unordered_map<Vertex_id, Shared_vertex> shared_;
 };
 
-/// Makes a surface in slabs. Each one is made with some planes more on both sides, as many as the repairs beside its
-/// seams look at. What it has at the seam to the slab before must be, bit for bit, what that one had found there.
+/// Computes a surface in slabs, each with a margin of planes on both sides that is as wide as the repairs near its
+/// seams require. Its vertices at the seam to the previous slab must equal, bit for bit, those that the previous slab
+/// has found there.
 template <class ConcurrencyTag, class Traits>
 class Isosurface_in_slabs {
   using Kernel = Kernel_of<Traits>;
@@ -197,7 +199,7 @@ public:
   }
 
 private:
-  /// A surface of some planes, with the number of the first of them.
+  /// The surface of some planes, and the index of the first plane.
   struct Part {
     std::size_t first_plane;
     Isosurface_in_layers<Kernel> layers;
@@ -205,7 +207,7 @@ private:
     std::size_t first_vertex(std::size_t plane) const { return layers.bounds.vertices[plane - first_plane]; }
     std::size_t first_triangle(std::size_t plane) const { return layers.bounds.triangles[plane - first_plane]; }
 
-    /// The points on edges that begin in a plane, and in the cells above.
+    /// The points on edges that begin in a plane, and in the cells above it.
     std::span<const Point_3> points_at(std::size_t plane) const {
       const std::size_t first = first_vertex(plane);
       return std::span<const Point_3>(layers.surface.points).subspan(first, first_vertex(plane + 1) - first);
@@ -265,28 +267,28 @@ private:
   const Vertex_position position_;
   const std::size_t planes_per_slab_;
   Isosurface_totals totals_;
-  std::vector<Point_3> seam_; // what the slab before has found in the first plane of the next one
+  std::vector<Point_3> seam_; // the points that the last slab has found in the first plane of the next one
 };
 
 } // namespace equiaffine::internal
 
 namespace equiaffine {
 
-/// Meshes the zero set of a function as marching_cubes() does, one slab of planes of nodes after the other, for meshes
-/// that are larger than memory. Calls visit(slab) with an `Isosurface_slab_3<Kernel>` for each one. All slabs together
-/// are the mesh of marching_cubes(), bit for bit and in the same order, however many planes a slab has.
+/// Meshes the zero set of a function like marching_cubes(), but one slab of planes of nodes at a time, for meshes
+/// larger than memory. Calls visit(slab) with an `Isosurface_slab_3<Kernel>` for each slab. Together, the slabs are
+/// the mesh of marching_cubes(), bit for bit and in the same order, for every number of planes per slab.
 ///
 ///     std::ofstream file("faces.txt");
 ///     marching_cubes_in_slabs(traits, [&](const Isosurface_slab_3<Kernel>& slab) {
 ///       for (const auto& [a, b, c] : slab.triangles) file << a << ' ' << b << ' ' << c << '\n';
 ///     });
 ///
-/// Takes the memory of a slab with 8 planes more, and the time of marching_cubes() for as many planes. Where a closed
-/// part of the surface without area, such as a function that only touches zero has, goes on beyond these planes, the
-/// slab is made again with more of them.
+/// Takes the memory of a slab with 8 additional planes, and the time of marching_cubes() for the same number of
+/// planes. Where a closed part of the surface without area extends beyond these planes, for example because f only
+/// touches zero, the slab is computed again with more of them.
 /// \throw Input_error for bad options
-/// \throw std::runtime_error if the repairs beside a seam depend on what is far from it, which no function was seen to
-/// bring about
+/// \throw std::runtime_error if the repairs near a seam depend on the surface far from it, which has not been
+/// observed for any function
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Visit>
 Isosurface_totals marching_cubes_in_slabs(const Traits& traits, const Visit& visit, const Slab_options& options = {}) {
   options.check();
@@ -294,16 +296,17 @@ Isosurface_totals marching_cubes_in_slabs(const Traits& traits, const Visit& vis
   return internal::Isosurface_in_slabs<ConcurrencyTag, Traits>(function, options).run(visit);
 }
 
-/// Meshes the zero set of a function in a block of cells of its lattice, one slab after the other, with ids of
-/// vertices. The meshes of blocks, such as different processes make, are together the mesh of marching_cubes(): every
-/// triangle is in one of them, with the same points and ids, and vertices at the sides of blocks are in all that have
-/// triangles there.
+/// Meshes the zero set of a function in a block of cells of its lattice, one slab at a time, with vertex ids. The
+/// meshes of all blocks, for example from different processes, together are the mesh of marching_cubes(): every
+/// triangle is in exactly one of them, with the same points and ids, and vertices at the sides of blocks are in each
+/// block that has triangles there.
 ///
-/// The function is evaluated in the cells that are `known` only, by default in those of the lattice. They go
-/// `cells_around_block` beyond the block on every side, or to the end of the lattice. Where a closed part without area
-/// goes on beyond all known cells, blocks do not agree on whether to drop it: its triangles may be left in some.
+/// The function is only evaluated in the `known` cells, by default all cells of the lattice. They must extend
+/// `cells_around_block` beyond the block on each side, or to the end of the lattice. Where a closed part without area
+/// extends beyond all known cells, blocks may disagree on whether to drop it, and some may keep its triangles.
 /// \throw Input_error for bad options
-/// \throw std::invalid_argument unless the block has cells of the lattice, and enough cells around it are known
+/// \throw std::invalid_argument unless the block is not empty, lies in the lattice, and enough cells around it are
+/// known
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits, class Visit>
 Isosurface_totals marching_cubes_of_block(const Traits& traits, const Cell_block& block, const Visit& visit,
                                           const Slab_options& options = {},

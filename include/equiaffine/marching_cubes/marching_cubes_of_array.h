@@ -27,8 +27,8 @@
 
 namespace equiaffine::internal {
 
-/// An allocator for large arrays that are written once, right after they are made: it leaves numbers uninitialized and
-/// asks for large pages.
+/// An allocator for large arrays that are written once, right after allocation: it leaves numbers uninitialized and
+/// requests large pages.
 template <class T>
 struct Output_allocator {
   using value_type = T;
@@ -63,20 +63,21 @@ struct Output_allocator {
 
 namespace equiaffine {
 
-/// A triangle mesh as plain arrays. Triangles are counterclockwise seen from the side of the greater values.
+/// A triangle mesh in plain arrays. Triangles are counterclockwise seen from the side of the greater values.
 template <class FT>
 struct Array_isosurface_3 {
   std::vector<std::array<FT, 3>, internal::Output_allocator<std::array<FT, 3>>> points; ///< the points
-  /// Three indices of points each.
+  /// Three point indices each.
   std::vector<std::array<std::uint32_t, 3>, internal::Output_allocator<std::array<std::uint32_t, 3>>> triangles;
-  Isosurface_repairs repairs; ///< what was repaired
+  Isosurface_repairs repairs; ///< the repairs that were made
 };
 
 } // namespace equiaffine
 
 namespace equiaffine::internal {
 
-/// The values at the nodes of a grid, with i fastest, and where the nodes lie: a Grid as in isosurface_numbering.h.
+/// The values at the nodes of a grid, with i fastest, and the positions of the nodes: a Grid as in
+/// isosurface_numbering.h.
 template <class Number>
 class Array_grid {
 public:
@@ -94,7 +95,7 @@ public:
   static bool is_at_cut(const Grid_edge&) { return false; }
   static const Point& coordinates(const Point& p) { return p; }
 
-  /// The value at a node, followed by those at the next nodes along i.
+  /// A pointer to the value at a node, followed by those at the next nodes along i.
   const FT* values_from(const Node& n) const { return &values_[index_in_whole(n)]; }
 
   std::array<FT, 8> cell_values(const Node& cell) const {
@@ -133,7 +134,7 @@ public:
   }
 
 private:
-  /// The distance in `values_` from a node to the next one along each axis.
+  /// The distance in `values_` between neighbors along each axis.
   Node stride() const { return {1, size_[0], size_[0] * size_[1]}; }
 
   std::span<const FT> values_;
@@ -142,7 +143,7 @@ private:
   Point origin_, spacing_;
 };
 
-/// Prefetches the 64 numbers one page after these: the processor by itself does not prefetch beyond the end of a page.
+/// Prefetches 64 numbers one page ahead: the processor does not prefetch beyond the end of a page by itself.
 template <class FT>
 void fetch_ahead([[maybe_unused]] const FT* values) {
 #ifdef __GNUC__
@@ -167,7 +168,7 @@ Node_signs node_signs(const Array_grid<FT>& grid) {
   return signs;
 }
 
-/// Computes the surface of an array with the cases of the given table.
+/// Computes the surface of an array with the given table of cases.
 template <class ConcurrencyTag, class FT>
 Array_isosurface_3<FT> isosurface_of_array(const Array_grid<FT>& grid, const Case_table& table) {
   const Node_signs signs = node_signs<ConcurrencyTag>(grid);
@@ -190,22 +191,24 @@ Array_isosurface_3<FT> isosurface_of_array(const Array_grid<FT>& grid, const Cas
 
 namespace equiaffine {
 
-/// Runs Marching Cubes on a plain array: meshes the surface where `values`, float or double with i fastest, pass
-/// `isovalue`. Node (i, j, k) lies at origin + (i, j, k) * spacing. The topology, and the meaning of NaN and of values
-/// equal to the isovalue, are those of `marching_cubes`. Vertices lie where linear interpolation along edges puts them.
-/// \throw std::invalid_argument unless there are as many values as nodes, at least two nodes along each axis, and the
+/// Marching Cubes on a plain array: meshes the surface where `values`, float or double with i fastest, cross
+/// `isovalue`. Node (i, j, k) lies at origin + (i, j, k) * spacing. The topology and the treatment of NaN and of
+/// values equal to the isovalue are those of marching_cubes(). Vertices are placed by linear interpolation along
+/// edges.
+/// \throw std::invalid_argument unless there is one value per node, at least two nodes along each axis, and the
 /// spacing is positive and finite
 template <class ConcurrencyTag = CGAL::Sequential_tag, class FT>
 Array_isosurface_3<FT> marching_cubes_of_array(std::span<const FT> values, const std::array<std::size_t, 3>& size,
                                                FT isovalue, const std::array<FT, 3>& origin = {0, 0, 0},
                                                const std::array<FT, 3>& spacing = {1, 1, 1}) {
   const auto [nx, ny, nz] = size;
-  check_argument(nx >= 2 && ny >= 2 && nz >= 2, "an array has less than two nodes along an axis: choose a larger size");
+  check_argument(nx >= 2 && ny >= 2 && nz >= 2,
+                 "an array has fewer than two nodes along an axis: choose a larger size");
   check_argument(values.size() / nx / ny == nz && values.size() == nx * ny * nz,
-                 "an array has not as many values as its size has nodes: choose the size that it has");
+                 "the number of values does not match the size of the array: give one value per node");
   for (const FT& step : spacing)
     check_argument(step > 0 && step - step == 0,
-                   "the spacing of an array is not a positive length: choose one along each axis");
+                   "the spacing of an array is not positive and finite: choose a positive length along each axis");
   const internal::Array_grid<FT> grid(values, size, isovalue, origin, spacing);
   return internal::isosurface_of_array<ConcurrencyTag>(grid, internal::Case_table::instance());
 }

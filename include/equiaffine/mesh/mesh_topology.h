@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The topology of a mesh, from the links of its vertices and the fans of triangles around them.
+// The topology of a triangle mesh, computed from the links of its vertices and the fans of triangles around them.
 #ifndef EQUIAFFINE_MESH_MESH_TOPOLOGY_H
 #define EQUIAFFINE_MESH_MESH_TOPOLOGY_H
 
@@ -18,18 +18,18 @@
 
 namespace equiaffine::internal {
 
-/// The link of a vertex: for every triangle at the vertex its opposite edge, in the triangle's direction.
+/// The link of a vertex: for every triangle at the vertex the opposite edge, in the direction of the triangle.
 class Vertex_link {
 public:
   using Index = std::uint32_t;
 
-  /// Begins the link of another vertex, still without edges.
+  /// Starts the link of another vertex, without edges.
   void begin(Index vertex) {
     vertex_ = vertex;
     edges_.clear();
   }
 
-  /// Adds the edge of a triangle that is opposite to its given corner, 0, 1 or 2.
+  /// Adds the edge of a triangle that is opposite to its given corner (0, 1 or 2).
   void add(const std::array<Index, 3>& triangle, std::size_t corner) {
     edges_.emplace_back(triangle[(corner + 1) % 3], triangle[(corner + 2) % 3]);
   }
@@ -50,7 +50,7 @@ public:
 
   Index vertex() const { return vertex_; }
 
-  /// Calls visit(neighbor, n) for every neighbor of the vertex, ascending; n triangles contain the edge between them.
+  /// Calls visit(neighbor, n) for every neighbor of the vertex, ascending. n is the number of triangles at their edge.
   template <class Visit>
   void for_each_neighbor(const Visit& visit) const {
     for (auto first = neighbors_.begin(); first != neighbors_.end();) {
@@ -60,7 +60,7 @@ public:
     }
   }
 
-  /// Whether the triangles around the vertex form one fan or one closed ring in which neighbors are oriented alike.
+  /// Whether the triangles around the vertex form one open or closed fan with consistent orientations.
   bool is_path_or_circle() const { return is_union_of_paths_and_circles() && is_connected(); }
 
 private:
@@ -73,7 +73,7 @@ private:
            std::adjacent_find(ends_.begin(), ends_.end()) == ends_.end();
   }
 
-  /// Whether a walk passes all edges. It starts where a path begins; without a path, anywhere.
+  /// Whether one walk covers all edges. It starts at the beginning of a path, or anywhere on a circle.
   bool is_connected() const {
     Index start = edges_.front().first;
     for (const auto& edge : edges_)
@@ -95,8 +95,8 @@ private:
   std::vector<Index> neighbors_; // the vertices of every edge, sorted; a neighbor appears once per triangle
 };
 
-/// The corners of triangles in the order of their vertices: those at vertex v are corners[first[v]] up to
-/// corners[first[v + 1]], where 3 t + c stands for corner c of triangle t.
+/// The corners of triangles, sorted by vertex: those at vertex v are corners[first[v]] to corners[first[v + 1] - 1],
+/// where 3 t + c denotes corner c of triangle t.
 struct Corners_by_vertex {
   Corners_by_vertex(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t number_of_vertices)
       : first(number_of_vertices + 2), corners(3 * triangles.size()) {
@@ -112,9 +112,9 @@ struct Corners_by_vertex {
 };
 
 /// Calls visit(link) for every vertex of a list of triangles, ascending. `link.vertex()` is its index,
-/// `link.is_path_or_circle()` says whether the mesh is an oriented manifold there, and
-/// `link.for_each_neighbor(visit_neighbor)` calls visit_neighbor(neighbor, n) for every edge of the vertex, which is in
-/// n triangles. Takes nearly linear time and 32 bytes of memory per triangle.
+/// `link.is_path_or_circle()` is whether the mesh is an oriented manifold there, and
+/// `link.for_each_neighbor(visit_neighbor)` calls visit_neighbor(neighbor, n) for every edge of the vertex, where n is
+/// the number of triangles at the edge. Takes nearly linear time and 32 bytes of memory per triangle.
 /// \pre indices are below `number_of_vertices`
 template <class Visit>
 void for_each_vertex_link(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t number_of_vertices,
@@ -133,15 +133,15 @@ void for_each_vertex_link(std::span<const std::array<std::uint32_t, 3>> triangle
 /// An edge of a triangle. Corner m of triangle t is denoted by 3 t + m.
 struct Triangle_edge {
   std::uint32_t first, second;             // its vertices, the smaller one first
-  std::size_t first_corner, second_corner; // the corners of the triangle there
-  bool is_reversed;                        // whether the triangle passes it from the second vertex to the first
+  std::size_t first_corner, second_corner; // the corners of the triangle at these vertices
+  bool is_reversed;                        // whether the triangle traverses it from second to first
   bool operator<(const Triangle_edge& other) const {
     return first != other.first ? first < other.first : second < other.second;
   }
 };
 
-/// The corners of triangles in sets, one for each fan of triangles around a vertex that follow each other by edges. Two
-/// triangles follow each other by an edge that they pass in opposite directions, and that is in no third one.
+/// Partitions the corners of triangles into sets, one for each fan of triangles around a vertex. Triangles are adjacent
+/// in a fan if they traverse a common edge in opposite directions and no third triangle has this edge.
 template <class Triangles>
 Disjoint_sets<std::size_t> corners_by_fan(const Triangles& triangles) {
   std::vector<Triangle_edge> edges;
@@ -163,9 +163,8 @@ Disjoint_sets<std::size_t> corners_by_fan(const Triangles& triangles) {
   return fans;
 }
 
-/// Gives every fan of triangles a vertex of its own where several fans meet in one vertex, as parts of a surface do
-/// beside nodes without a value, and along edges with more than two triangles. `copy_vertex(v)` appends a copy of
-/// vertex v.
+/// Gives every fan of triangles its own vertex. Several fans meet in one vertex at edges with more than two triangles,
+/// and where parts of a surface meet next to nodes without a value. `copy_vertex(v)` must append a copy of vertex v.
 template <class Triangles, class CopyVertex>
 void split_fans(Triangles& triangles, std::size_t number_of_vertices, const CopyVertex& copy_vertex) {
   if (triangles.empty()) return;
@@ -191,28 +190,28 @@ namespace equiaffine {
 
 /// The topology of a list of triangles.
 struct Mesh_topology {
-  /// Every edge is in one triangle, or in two that pass it in opposite directions, and the triangles around every point
-  /// form one fan or one closed ring. Points in no triangle and triangles with a repeated index violate this.
+  /// Whether every edge is in one triangle, or in two that traverse it in opposite directions, and the triangles around
+  /// every point form one open or closed fan. False if there are points in no triangle, or triangles with a repeated
+  /// index.
   bool is_manifold = true;
   std::size_t edges = 0;                   ///< the number of edges
   std::size_t boundary_edges = 0;          ///< edges in exactly one triangle
-  std::size_t components = 0;              ///< connected by points; a point in no triangle counts
+  std::size_t components = 0;              ///< connected via points; a point in no triangle is a component
   std::ptrdiff_t euler_characteristic = 0; ///< points - edges + triangles
 };
 
-/// Computes the topology from the indices alone: points with equal coordinates are different points. Takes nearly
-/// linear time and 32 bytes of memory per triangle. \throw std::invalid_argument unless indices are below
-/// `number_of_points`
+/// Computes the topology from the indices only: points with equal coordinates are different points. Takes nearly linear
+/// time and 32 bytes of memory per triangle. \throw std::invalid_argument if an index is not below `number_of_points`
 inline Mesh_topology mesh_topology(std::span<const std::array<std::uint32_t, 3>> triangles,
                                    std::size_t number_of_points) {
   const auto is_valid = [&](const auto& t) { return std::max({t[0], t[1], t[2]}) < number_of_points; };
   check_argument(std::all_of(triangles.begin(), triangles.end(), is_valid),
-                 "a triangle has the index of no point: give all points of the mesh");
+                 "a triangle has an index that is not below the number of points: pass all points of the mesh");
   Mesh_topology topology;
   internal::for_each_vertex_link(triangles, number_of_points, [&](const auto& link) {
     if (!link.is_path_or_circle()) topology.is_manifold = false;
     link.for_each_neighbor([&](std::uint32_t neighbor, std::size_t triangles_at_edge) {
-      if (neighbor <= link.vertex()) return; // an edge is counted at its smaller end
+      if (neighbor <= link.vertex()) return; // each edge is counted at its smaller vertex
       ++topology.edges;
       if (triangles_at_edge == 1) ++topology.boundary_edges;
     });

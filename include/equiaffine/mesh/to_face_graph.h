@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Gives the mesh of a sampler to a CGAL::Surface_mesh, to any other mesh of CGAL, or to containers of the caller.
+// Converts the mesh of a sampler to a CGAL::Surface_mesh, to any other mesh of CGAL, or to containers of the caller.
 #ifndef EQUIAFFINE_MESH_TO_FACE_GRAPH_H
 #define EQUIAFFINE_MESH_TO_FACE_GRAPH_H
 
@@ -24,11 +24,11 @@
 
 namespace equiaffine {
 
-/// Makes a CGAL::Surface_mesh, with the property map `v:status` (Point_status), from the mesh of a sampler. It has all
-/// triangles, in the same order. Vertex i is point i; where the mesh is not a manifold, as a Delaunay mesh of x y z = 0
-/// is along the axes, copies of vertices follow, which have the same point and status, so that the parts of the surface
-/// that meet there come apart. `surface.points` and `surface.triangles` are the mesh in which they are joined, and can
-/// be given to CGAL's functions for polygon soups.
+/// Converts the mesh of a sampler to a CGAL::Surface_mesh with the property map `v:status` (Point_status). It has all
+/// triangles, in the same order. Vertex i is point i. Where the mesh is not a manifold, for example a Delaunay mesh of
+/// x y z = 0 along the axes, the parts of the surface that meet there are separated: copies of vertices with the same
+/// point and status are appended. In `surface.points` and `surface.triangles` these parts are connected; pass them to
+/// CGAL's functions for polygon soups.
 template <class Kernel>
 CGAL::Surface_mesh<typename Kernel::Point_3> to_surface_mesh(const Isosurface_3<Kernel>& surface) {
   using Point_3 = typename Kernel::Point_3;
@@ -42,7 +42,7 @@ CGAL::Surface_mesh<typename Kernel::Point_3> to_surface_mesh(const Isosurface_3<
     status[mesh.add_vertex(surface.points[i])] = surface.vertex_status[i];
   const auto copy_vertex = [&](std::size_t v) {
     const Vertex_index original{Size(v)};
-    const Point_3 p = mesh.point(original); // a copy, since the new vertex may move the points
+    const Point_3 p = mesh.point(original); // a copy, since add_vertex() may invalidate references to points
     const Vertex_index copy = mesh.add_vertex(p);
     status[copy] = status[original];
     return copy;
@@ -51,7 +51,7 @@ CGAL::Surface_mesh<typename Kernel::Point_3> to_surface_mesh(const Isosurface_3<
   if (!mesh_topology(triangles, surface.points.size()).is_manifold)
     internal::split_fans(triangles, surface.points.size(), copy_vertex);
   for (const auto& [a, b, c] : triangles)
-    // An edge may still be in several triangles if these belong to one fan at both of its ends.
+    // An edge can still be in several triangles if these belong to one fan at both ends of the edge.
     if (mesh.add_face(Vertex_index(a), Vertex_index(b), Vertex_index(c)) == Mesh::null_face())
       mesh.add_face(copy_vertex(a), copy_vertex(b), copy_vertex(c));
   return mesh;
@@ -61,8 +61,8 @@ CGAL::Surface_mesh<typename Kernel::Point_3> to_surface_mesh(const Isosurface_3<
 
 namespace equiaffine::internal {
 
-/// Adds a copy of a mesh to a graph. Returns the copies of its vertices, which are made in their order: that is what
-/// CGAL::copy_face_graph does not keep.
+/// Adds a copy of a mesh to a graph. Returns the copies of its vertices, which are created in their order, unlike by
+/// CGAL::copy_face_graph.
 template <class Mesh, class Graph, class Point_map>
 auto add_copy(const Mesh& mesh, Graph& graph, const Point_map& points) {
   using Traits = boost::graph_traits<Graph>;
@@ -95,18 +95,18 @@ auto add_copy(const Mesh& mesh, Graph& graph, const Point_map& points) {
 
 template <class Kernel, class Graph, class Parameters>
 void copy_to_graph(const Isosurface_3<Kernel>& surface, Graph& graph, const Parameters& parameters) {
-  static_assert(!std::is_const_v<Graph>, "the mesh that gets the surface is const: give one that can be changed");
+  static_assert(!std::is_const_v<Graph>, "the output mesh is const: pass a mesh that can be modified");
   check_coordinates<Point_of_vertices<Graph, Parameters>>();
   auto mesh = to_surface_mesh(surface);
   using Vertex = typename boost::graph_traits<decltype(to_surface_mesh(surface))>::vertex_descriptor;
   const auto copies = add_copy(mesh, graph, vertex_points(graph, parameters));
   if constexpr (has_parameter<Vertex_status_tag, Parameters>) {
-    const auto status = mesh.template add_property_map<Vertex, Point_status>("v:status").first; // it is there
+    const auto status = mesh.template add_property_map<Vertex, Point_status>("v:status").first; // exists already
     for (const Vertex v : mesh.vertices()) put(given_parameter<Vertex_status_tag>(parameters), copies[v], status[v]);
   }
 }
 
-/// Returns the facts that a sampler found beside its mesh.
+/// Returns the statistics of a sampler, without its mesh.
 template <class Surface>
 Surface without_mesh(Surface surface) {
   surface.points.clear();
@@ -118,14 +118,15 @@ Surface without_mesh(Surface surface) {
 
 namespace equiaffine {
 
-/// Adds the same mesh to a model of CGAL's MutableFaceGraph of any kernel with coordinates that are doubles. Vertices
-/// and faces are made in their order; a CGAL::Surface_mesh puts the first ones where others were removed.
+/// Adds the same mesh to a model of CGAL's MutableFaceGraph, for any kernel whose coordinates are doubles. Vertices and
+/// faces are created in their order; a CGAL::Surface_mesh first reuses the places of removed ones.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
 /// | `vertex_point_map` | writable property map | the mesh's own | from vertices to points |
 /// | `vertex_status_map` | writable property map | none | from vertices to Point_status |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// `geom_traits` and `verbose` are accepted for compatibility with CGAL, and ignored.
 template <class Kernel, Face_graph Graph, internal::Parameter_chain... Parameters>
 void to_face_graph(const Isosurface_3<Kernel>& surface, Graph& graph, const Parameters&... given) {
   internal::check_parameters<internal::Joined_parameters<Parameters...>, internal::Vertex_point_tag,
@@ -133,9 +134,9 @@ void to_face_graph(const Isosurface_3<Kernel>& surface, Graph& graph, const Para
   internal::copy_to_graph(surface, graph, internal::joined_parameters(given...));
 }
 
-/// Adds the points and the triangles of a mesh to containers of the caller, as CGAL's Isosurfacing_3 does: one of
-/// points of any kernel with `push_back`, and one of triangles that are containers with `push_back`, or arrays, of
-/// indices. Indices count the points that are there before, too.
+/// Adds the points and triangles of a mesh to containers of the caller, like CGAL's Isosurfacing_3. `points` must have
+/// `push_back` and points of any kernel; `triangles` must have `push_back`, and its elements are arrays of indices or
+/// containers with `push_back`. Indices take points that are already in the container into account.
 template <class Kernel, class Points, class Triangles>
 void to_polygon_soup(const Isosurface_3<Kernel>& surface, Points& points, Triangles& triangles) {
   using Point = typename Points::value_type;

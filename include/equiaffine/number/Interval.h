@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interval, closed intervals of reals with outward rounding, with its elementary functions.
+// Interval, closed intervals of reals with outward rounding, and their elementary functions.
 #ifndef EQUIAFFINE_NUMBER_INTERVAL_H
 #define EQUIAFFINE_NUMBER_INTERVAL_H
 
@@ -20,32 +20,32 @@
 
 namespace equiaffine {
 
-/// Thrown by a comparison of intervals whose answer depends on the numbers in them. Who asked for bounds has to do
-/// without.
+/// Thrown by a comparison of intervals if its result is not the same for all numbers in them. The caller must then do
+/// without bounds.
 struct Undecided_comparison : std::exception {
   /// The message of the exception.
   const char* what() const noexcept override { return "a comparison of intervals is undecided"; }
 };
 
-/// A closed interval of reals [lower, upper] with outward rounded arithmetic: the result of a function of intervals
-/// contains its values at all points of them (Moore, Kearfott, Cloud: Introduction to Interval Analysis, 2009).
+/// A closed interval [lower, upper] of reals with outward-rounded arithmetic: the result of a function contains its
+/// values at all points of the arguments (Moore, Kearfott, Cloud: Introduction to Interval Analysis, 2009).
 ///
-/// Rounding is by widening each computed bound, never by switching the rounding mode of the processor: results do not
-/// depend on compiler flags, threads keep their modes, and clang and vectorization are safe. Sums, products, quotients
-/// and square roots are widened by one unit in the last place, other functions by eight (for exp less than 1 would do,
-/// glibc documents at most 3 for the others). A thread that rounds downwards or towards zero sees no overflow.
+/// Each computed bound is widened; the processor's rounding mode is never changed. Results therefore do not depend on
+/// compiler flags, threads keep their rounding modes, and clang and vectorization are safe. Sums, products, quotients
+/// and square roots are widened by one unit in the last place, other functions by eight (exp needs less than 1; glibc
+/// documents at most 3 for the others). Overflow is not detected in threads that round downwards or towards zero.
 ///
-/// A bound that is NaN, and a function evaluated partly outside its domain, give the whole line where the result is
-/// unknown; sqrt, log and the like use the part of the argument inside the domain, as is usual, and the whole line if
-/// there is none.
+/// If a bound is NaN, or a function is evaluated partly outside its domain, an unknown result is the whole real line.
+/// As usual, sqrt, log and similar functions use the part of the argument inside the domain; if there is none, the
+/// result is the whole real line.
 class Interval {
   using Limits = std::numeric_limits<double>;
 
 public:
   Interval() = default; ///< leaves the bounds uninitialized
 
-  /// The interval that contains a number alone, or, where a double cannot hold that, the numbers beside it. Infinity
-  /// and NaN give what the constructor from two bounds does.
+  /// The interval [value, value], or its neighboring doubles if a double cannot represent the value. For infinity and
+  /// NaN see the constructor from two bounds.
   template <class Number>
   Interval(Number value) requires(std::is_arithmetic_v<Number>) : outwards_{-double(value), double(value)} {
     const double x = double(value);
@@ -54,8 +54,8 @@ public:
       if (value == value && static_cast<long double>(x) != static_cast<long double>(value)) *this = widened(x, x);
   }
 
-  /// The interval from `lower` to `upper`; a lower bound of +infinity becomes the largest number, an upper one of
-  /// -infinity the lowest. Unless lower <= upper, as with a NaN, it is the whole line.
+  /// The interval from `lower` to `upper`. A lower bound of +infinity becomes the largest double, an upper bound of
+  /// -infinity the lowest. Unless lower <= upper, for example if a bound is NaN, the result is the whole real line.
   Interval(double lower, double upper)
       : Interval(lower <= upper ? greater(Outwards{-lower, upper}, repeated(Limits::lowest()))
                                 : repeated(Limits::infinity())) {}
@@ -64,18 +64,18 @@ public:
 
   double lower() const { return -outwards_[0]; }                         ///< the lower bound
   double upper() const { return outwards_[1]; }                          ///< the upper bound
-  bool contains(double x) const { return lower() <= x && x <= upper(); } ///< whether a number lies in it
+  bool contains(double x) const { return lower() <= x && x <= upper(); } ///< whether x is in the interval
 
-  Interval operator-() const { return swapped(outwards_); } ///< the opposite numbers
+  Interval operator-() const { return swapped(outwards_); } ///< the negated interval
   Interval operator+() const { return *this; }              ///< the same interval
 
   /// @{
-  /// Outward rounded arithmetic.
+  /// Outward-rounded arithmetic.
   friend Interval operator+(const Interval& a, const Interval& b) { return rounded(a.outwards_ + b.outwards_); }
   friend Interval operator-(const Interval& a, const Interval& b) {
     return rounded(a.outwards_ + swapped(b.outwards_));
   }
-  /// An interval times itself is a square: never negative.
+  /// An interval times itself is a square, hence never negative.
   friend Interval operator*(const Interval& a, const Interval& b) {
     if (&a == &b) return square(a);
     const Outwards p = a.outwards_ * b.outwards_, q = a.outwards_ * swapped(b.outwards_);
@@ -103,8 +103,8 @@ public:
   }
 
   /// @{
-  /// Code with branches works for intervals on which the branches do not meet: a comparison has the answer that it has
-  /// for every pair of numbers. \throw Undecided_comparison if it is not the same for all
+  /// A comparison returns its result if it is the same for all numbers in the intervals. So code with branches works on
+  /// intervals that take one branch. \throw Undecided_comparison if the result differs
   friend bool operator<(const Interval& a, const Interval& b) {
     if (a.upper() < b.lower()) return true;
     if (a.lower() >= b.upper()) return false;
@@ -117,7 +117,7 @@ public:
   friend Interval select(bool condition, const Interval& yes, const Interval& no) { return condition ? yes : no; }
   /// @}
 
-  /// The squares of the numbers of an interval.
+  /// The squares of the numbers in an interval.
   friend Interval square(const Interval& a) {
     const Outwards s = swapped(a.outwards_);
     const double least = std::max(-lesser(a.outwards_, s)[0], 0.0), largest = greater(a.outwards_, s)[0]; // of |a|
@@ -128,8 +128,8 @@ public:
     return Interval(std::max(r.lower(), 0.0), r.upper());
   }
 
-  /// [lower, upper] widened by `ulps` units in the last place on each side, and by the smallest normal number. A bound
-  /// that overflowed inwards is replaced by the largest number.
+  /// [lower, upper] widened on each side by `ulps` units in the last place and by the smallest normal number. A bound
+  /// that overflowed inwards is replaced by the largest double.
   static Interval widened(double lower, double upper, int ulps = 1) {
     return lower <= upper ? widened(Outwards{-lower, upper}, ulps) : whole();
   }
@@ -137,18 +137,18 @@ public:
   /// The smallest interval that contains both.
   static Interval hull(const Interval& a, const Interval& b) { return greater(a.outwards_, b.outwards_); }
 
-  /// The intersection of two bounds of the same number; the whole line if they have no point in common.
+  /// The intersection of two bounds of the same number; the whole real line if they are disjoint.
   static Interval intersection(const Interval& a, const Interval& b) {
     const Interval r = lesser(a.outwards_, b.outwards_);
     return r.lower() <= r.upper() ? r : whole();
   }
 
 private:
-  /// The pair (-lower, upper): both numbers grow outwards, and neither is NaN or -infinity.
+  /// The pair (-lower, upper). Both numbers grow outwards; neither is NaN or -infinity.
   typedef double Outwards __attribute__((vector_size(2 * sizeof(double))));
 
-  /// A product below the first number may have been rounded to a subnormal one, and so may the square of a number below
-  /// the second.
+  /// A product below `smallest_normal` may have been rounded to a subnormal number, and so may the square of a number
+  /// below `smallest_normal_root`.
   static constexpr double smallest_normal = Limits::min() / Limits::epsilon(), smallest_normal_root = 0x1p-485;
 
   Interval(const Outwards& outwards) : outwards_(outwards) {}
@@ -156,7 +156,7 @@ private:
   static Outwards repeated(double x) { return Outwards{x, x}; }
   static Outwards swapped(const Outwards& x) { return __builtin_shufflevector(x, x, 1, 0); }
 
-  // Both return the second argument where only the first is NaN. From the conditional expressions GCC would make three
+  // Both return the second argument if only the first is NaN. GCC compiles the conditional expressions to three
   // instructions if an argument is constant.
 #ifdef __SSE2__
   static Outwards greater(const Outwards& x, const Outwards& y) { return _mm_max_pd(x, y); }
@@ -170,14 +170,14 @@ private:
     return rounded(outwards, ulps).outwards_ + repeated(Limits::min());
   }
 
-  /// Widens bounds that are exact where they are subnormal, as sums are: not by the smallest normal number, too. A
-  /// subnormal number, once made, would slow down all that is computed of it.
+  /// Widens bounds that are exact if they are subnormal, as sums are; so the smallest normal number is not added. It
+  /// could lead to subnormal numbers, which slow down all further computation.
   static Interval rounded(const Outwards& outwards, int ulps = 1) {
     const Outwards x = greater(outwards, repeated(Limits::lowest()));
     return greater(x * (1 + Limits::epsilon() * ulps), x * (1 - Limits::epsilon() * ulps));
   }
 
-  /// The product where a factor is zero, infinite, or so small that a product of bounds may be subnormal.
+  /// The product if a factor is zero, infinite, or so small that a product of bounds may be subnormal.
   static Interval special_product(const Interval& a, const Interval& b) {
     if ((a.lower() == 0 && a.upper() == 0) || (b.lower() == 0 && b.upper() == 0)) return Interval(0.0, 0.0);
     double lower = Limits::infinity(), upper = -Limits::infinity();
@@ -192,7 +192,7 @@ private:
     return is_exact_if_small ? rounded(Outwards{-lower, upper}) : widened(lower, upper);
   }
 
-  // An infinite bound is approached, never reached: 0 times it is 0, and anything divided by it tends to 0.
+  // Infinite bounds are limits: 0 times infinity is 0, and a number divided by infinity tends to 0.
   static double product(double a, double b) { return a == 0 || b == 0 ? 0 : a * b; }
   static double quotient(double a, double b) { return std::isinf(b) ? 0 : a / b; }
 
@@ -201,7 +201,7 @@ private:
 
 // Elementary functions of intervals.
 
-/// The greatest error of a computed function, in units in the last place.
+/// The maximal error of a computed function, in units in the last place.
 inline constexpr int function_error_ulps = 8;
 
 namespace internal {
@@ -211,12 +211,12 @@ Interval increasing(F f, const Interval& a) {
   return Interval::widened(f(a.lower()), f(a.upper()), function_error_ulps);
 }
 
-/// The part of interval a between two numbers, or the whole line if there is none.
+/// The part of a between two numbers; the whole real line if it is empty.
 inline Interval part_between(const Interval& a, double lower, double upper) {
   return Interval(std::max(a.lower(), lower), std::min(a.upper(), upper));
 }
 
-/// Whether interval a contains offset + period n for an integer n. It may be true by mistake, but never false.
+/// Whether a contains offset + period n for some integer n. Conservative: may be true by mistake, but never false.
 inline bool contains_multiple(const Interval& a, double offset, double period) {
   const Interval n = (a - Interval::widened(offset, offset)) / Interval::widened(period, period);
   return std::floor(n.upper()) >= std::ceil(n.lower());
@@ -224,8 +224,7 @@ inline bool contains_multiple(const Interval& a, double offset, double period) {
 
 } // namespace internal
 
-/// Does for intervals what the function of this name in select.h does for numbers. Found there by argument-dependent
-/// lookup.
+/// branch_or_kink() of select.h for intervals. Found by argument-dependent lookup.
 inline Interval branch_or_kink(const Interval& u, const Interval& v, const Interval& a, const Interval& b, int degree) {
   if (u.lower() > v.upper()) return a;
   if (v.lower() > u.upper()) return b;
@@ -234,7 +233,7 @@ inline Interval branch_or_kink(const Interval& u, const Interval& v, const Inter
 }
 
 /// @{
-/// Contains the values of the function of this name at the numbers of the intervals where it is defined.
+/// Contains the values of the function at all numbers in the intervals at which it is defined.
 inline Interval abs(const Interval& a) {
   const double p = std::abs(a.lower()), q = std::abs(a.upper());
   return Interval(a.contains(0) ? 0 : std::min(p, q), std::max(p, q));
@@ -264,8 +263,8 @@ inline Interval log(const Interval& a) {
 }
 /// @}
 
-/// a^n, which is monotone in a or, for even n, in |a|. The powers in Jet_3.h call it, too, since repeated
-/// squaring would treat the factors as independent numbers.
+/// a^n, which is monotone in a or, for even n, in |a|. Powers in Jet_3.h call it because repeated squaring would treat
+/// the factors as independent numbers.
 inline Interval natural_power(const Interval& a, unsigned n) {
   if (n == 0) return Interval(1);
   if (n == 1) return a;
@@ -282,16 +281,15 @@ inline Interval pow(const Interval& a, int n) {
   return n < 0 ? Interval(1) / natural_power(a, 0u - unsigned(n)) : natural_power(a, unsigned(n));
 }
 
-/// Real power. It bounds the powers of the numbers in a that are not negative, and of the others where b contains a
-/// whole number.
+/// Real power. Bounds the powers of the nonnegative numbers in a, and of the negative ones if b contains an integer.
 inline Interval pow(const Interval& a, const Interval& b) {
-  const double n = std::floor(b.upper()); // the largest whole number that b can contain
+  const double n = std::floor(b.upper()); // the largest integer that b can contain
   const bool is_whole = b.lower() == n && b.upper() == n && std::abs(n) <= std::numeric_limits<int>::max();
   if (is_whole) return pow(a, int(n));
   return a.lower() < 0 && b.lower() <= n ? Interval::whole() : exp(b * log(a));
 }
 
-/// The same for an exponent that would lose its fraction as an argument of the integer power.
+/// The same for a floating-point exponent, which would be truncated by the integer power.
 template <std::floating_point Number>
 Interval pow(const Interval& a, Number b) {
   return pow(a, Interval(b));
@@ -299,11 +297,11 @@ Interval pow(const Interval& a, Number b) {
 
 namespace internal {
 
-/// Bounds of a sine wave f, whose maxima lie at maximum + 2 pi n.
+/// Bounds of a sine wave f with maxima at maximum + 2 pi n.
 template <class F>
 Interval sine_wave(F f, const Interval& a, double maximum) {
   using std::numbers::pi;
-  constexpr double largest = 1e8; // larger arguments do not tell for certain how many periods a has
+  constexpr double largest = 1e8; // beyond this, the number of periods in a is uncertain
   if (!(std::abs(a.lower()) < largest && std::abs(a.upper()) < largest)) return Interval(-1, 1);
   const double p = f(a.lower()), q = f(a.upper());
   const Interval r = part_between(Interval::widened(std::min(p, q), std::max(p, q), function_error_ulps), -1, 1);
@@ -314,7 +312,7 @@ Interval sine_wave(F f, const Interval& a, double maximum) {
 } // namespace internal
 
 /// @{
-/// Contains the values of the function of this name at the numbers of the intervals where it is defined.
+/// Contains the values of the function at all numbers in the intervals at which it is defined.
 inline Interval sin(const Interval& a) {
   return internal::sine_wave([](double u) { return std::sin(u); }, a, std::numbers::pi / 2);
 }
@@ -344,13 +342,12 @@ inline Interval atan(const Interval& a) {
 }
 /// @}
 
-/// Does for intervals what the function of this name in select.h does for numbers: derivatives are unbounded if the
-/// box meets the jump.
+/// factor_for_jump() of select.h for intervals. Derivatives are unbounded if the box meets the jump.
 inline Interval factor_for_jump(const Interval& y, const Interval& x) {
   return x.lower() <= 0 && y.contains(0) ? Interval::whole() : Interval(1);
 }
 
-/// The angle of (x, y): the whole range where the box contains the origin or meets the cut along the negative x-axis.
+/// The angle of (x, y): the whole range if the box meets the cut along the negative x-axis, origin included.
 inline Interval atan2(const Interval& y, const Interval& x) {
   using std::numbers::pi;
   if (x.lower() <= 0 && y.contains(0)) return Interval::widened(-pi, pi, function_error_ulps);
@@ -361,7 +358,7 @@ inline Interval atan2(const Interval& y, const Interval& x) {
 }
 
 /// @{
-/// Contains the values of the function of this name at the numbers of the intervals where it is defined.
+/// Contains the values of the function at all numbers in the intervals at which it is defined.
 inline Interval sinh(const Interval& a) {
   return internal::increasing([](double u) { return std::sinh(u); }, a);
 }
@@ -387,7 +384,7 @@ inline Interval hypot(const Interval& x, const Interval& y, const Interval& z) {
 /// @}
 
 /// @{
-/// Contains the values of the function of this name at the numbers of the intervals where it is defined.
+/// Contains the values of the function at all numbers in the intervals at which it is defined.
 inline Interval erf(const Interval& a) {
   return internal::part_between(internal::increasing([](double u) { return std::erf(u); }, a), -1, 1);
 }
@@ -399,7 +396,7 @@ inline Interval sign(const Interval& a) {
   return Interval(of_number(a.lower()), of_number(a.upper()));
 }
 
-/// Where the quotient has one whole part n it is a - n b, else it has the sign of a and is less than b.
+/// a - n b if the integer part n of a / b is unique; otherwise bounds that follow from the sign of a and from |b|.
 inline Interval fmod(const Interval& a, const Interval& b) {
   if (b.lower() == 0 && b.upper() == 0) return Interval::whole();
   const double most = abs(b).upper();
@@ -411,19 +408,19 @@ inline Interval fmod(const Interval& a, const Interval& b) {
 }
 /// @}
 
-/// Does for intervals what the function of this name in Jet_3.h does for numbers.
+/// jump_of_remainder() of select.h for intervals.
 inline Interval jump_of_remainder(const Interval& a, const Interval& b, const Interval& r) {
   return r.contains(0) && !(abs(a).upper() < abs(b).lower()) ? Interval::whole() : Interval(0);
 }
 
 } // namespace equiaffine
 
-/// The limits of an interval are those of doubles, which convert to intervals.
-/// \cond doxygen knows no members of std
+/// The limits of an interval are those of double.
+/// \cond doxygen does not support members of std
 template <>
 class std::numeric_limits<equiaffine::Interval> : public std::numeric_limits<double> {
 public:
-  static constexpr bool is_iec559 = false; ///< an interval is no number of the processor
+  static constexpr bool is_iec559 = false; ///< an interval is not a hardware type
 };
 /// \endcond
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Jet_3, Taylor polynomials of three variables, with its functions: division, powers, elementary functions, order,
-// steps.
+// Jet_3, Taylor polynomials in three variables, with powers, elementary functions, comparisons and step functions.
 #ifndef EQUIAFFINE_NUMBER_JET_3_H
 #define EQUIAFFINE_NUMBER_JET_3_H
 
@@ -18,8 +17,8 @@
 
 namespace equiaffine::internal {
 
-/// a^p, given its value. Powers and logarithms are composed from a / a_0, which is near 1 at any scale of a: powers of
-/// a_0 itself would overflow.
+/// a^p, given its value. Powers and logarithms are composed from a / a_0, which is close to 1 at any scale of a; powers
+/// of a_0 itself would overflow.
 template <class T, int Order, Monomial_set A>
 auto real_power(const Jet_3<T, Order, A>& a, const T& value, const T& p) {
   std::array<T, 6> t = {value, T(0), T(0), T(0), T(0), T(0)}; // (p choose k) value
@@ -27,7 +26,7 @@ auto real_power(const Jet_3<T, Order, A>& a, const T& value, const T& p) {
   return compose(a * T(T(1) / a.value()), t);
 }
 
-/// Whether a function is zero everywhere, as far as its expansion shows.
+/// Whether all coefficients are zero; false for packs.
 template <class T, int Order, Monomial_set A>
 bool is_zero(const Jet_3<T, Order, A>& a) {
   if constexpr (requires(const T& x) {
@@ -39,7 +38,7 @@ bool is_zero(const Jet_3<T, Order, A>& a) {
   }
 }
 
-/// exp(a), given its value.
+/// exp(a), given exp(a_0).
 template <class T, int Order, Monomial_set A>
 auto exponential(const Jet_3<T, Order, A>& a, const T& e) {
   return compose(a, std::array<T, 6>{T(1), T(1), T(0.5), fraction<1, 6, T>(), fraction<1, 24, T>(),
@@ -52,7 +51,7 @@ auto exponential(const Jet_3<T, Order, A>& a, const T& e) {
 namespace equiaffine {
 
 /// @{
-/// The expansion of the function of this name where the arguments are functions with the given expansions.
+/// The expansion of a composed function, given the expansions of its arguments.
 template <class T, int Order, Monomial_set A>
 auto exp(const Jet_3<T, Order, A>& a) {
   return internal::exponential(a, internal::exp_value(a.value()));
@@ -63,12 +62,12 @@ template <class T, int Order, Monomial_set A>
 auto log(const Jet_3<T, Order, A>& a) {
   using std::log;
   const T l = log(a.value());
-  const T one = T(1) + T(0) * l; // NaN where l is not finite: there 1 / a_0 alone could be
+  const T one = T(1) + T(0) * l; // NaN where l is not finite, although 1 / a_0 may be finite
   return compose(a * T(T(1) / a.value()), std::array<T, 6>{l, one, one * T(-0.5), one * fraction<1, 3, T>(),
                                                            one * T(-0.25), one * fraction<1, 5, T>()});
 }
 
-/// The root s from a = s^2, degree by degree: 2 s_0 s_n = a_n - (the products of lower parts).
+/// The square root. s is computed from a = s^2 degree by degree: 2 s_0 s_n = a_n - (products of lower parts).
 template <class T, int Order, Monomial_set A>
 auto sqrt(const Jet_3<T, Order, A>& a) {
   using std::sqrt;
@@ -92,7 +91,7 @@ auto cbrt(const Jet_3<T, Order, A>& a) {
   return internal::real_power(a, T(cbrt(a.value())), T(T(1) / T(3)));
 }
 
-/// Integer power; for n >= 0 the value of the jet may be zero.
+/// Integer power. The value of the jet may be zero if n >= 0.
 template <class T, int Order, Monomial_set A>
 auto pow(const Jet_3<T, Order, A>& a, int n) -> decltype(compose(a, std::array<T, 6>())) {
   using internal::natural_power;
@@ -108,7 +107,7 @@ auto pow(const Jet_3<T, Order, A>& a, int n) -> decltype(compose(a, std::array<T
   return compose(a, t);
 }
 
-/// Real power; an exponent that is a whole number gives the integer power.
+/// Real power; integer exponents use the integer power.
 template <class T, int Order, Monomial_set A, JetScalar<T> S>
 auto pow(const Jet_3<T, Order, A>& a, const S& exponent) requires(!std::is_integral_v<S>) {
   using std::pow;
@@ -118,13 +117,13 @@ auto pow(const Jet_3<T, Order, A>& a, const S& exponent) requires(!std::is_integ
   return internal::real_power(a, T(pow(a.value(), T(exponent))), T(exponent));
 }
 
-/// A power whose exponent is a function, too: exp(b log(a)), and zero where a is zero and b positive.
+/// A power with a variable exponent: exp(b log(a)), and zero where a is zero and b is positive.
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto pow(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   using std::log;
   using std::pow;
   using Exponent = decltype(b * log(a));
-  const auto zero = [&] { // NaN where b is not positive: there 0^b ends
+  const auto zero = [&] { // NaN where b is not positive and 0^b is not defined
     const T logarithm = log(b.value());
     return T(logarithm - logarithm);
   };
@@ -141,20 +140,20 @@ auto pow(const S& base, const Jet_3<T, Order, A>& exponent) {
 }
 /// @}
 
-// What chooses by value: comparisons, max, min, abs, and the limits of jets.
+// Comparisons, max, min, abs, and numeric limits of jets.
 
 #define EQUIAFFINE_JET_COMPARISON(op)                                                                                  \
-  /** Jets compare by their values, so that a function may branch. */                                                  \
+  /** Jets compare by their values, so that functions may branch. */                                                   \
   template <class T, int Order, Monomial_set A, Monomial_set B>                                                        \
   auto operator op(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {                                         \
     return a.value() op b.value();                                                                                     \
   }                                                                                                                    \
-  /** Jets compare by their values, so that a function may branch. */                                                  \
+  /** Jets compare by their values, so that functions may branch. */                                                   \
   template <class T, int Order, Monomial_set A, JetScalar<T> S>                                                        \
   auto operator op(const Jet_3<T, Order, A>& a, const S& s) {                                                          \
     return a.value() op T(s);                                                                                          \
   }                                                                                                                    \
-  /** Jets compare by their values, so that a function may branch. */                                                  \
+  /** Jets compare by their values, so that functions may branch. */                                                   \
   template <class T, int Order, Monomial_set A, JetScalar<T> S>                                                        \
   auto operator op(const S& s, const Jet_3<T, Order, A>& a) {                                                          \
     return T(s) op a.value();                                                                                          \
@@ -165,8 +164,8 @@ EQUIAFFINE_JET_COMPARISON(<=)
 EQUIAFFINE_JET_COMPARISON(>=)
 #undef EQUIAFFINE_JET_COMPARISON
 
-/// The larger of two functions. Where they are equal the value is right and the derivatives are NaN (Interval, where
-/// the ranges overlap: the whole line for second and higher derivatives, the hull of both for the first).
+/// The larger of two functions. Where they are equal, the value is correct and the derivatives are NaN. For intervals
+/// that overlap, first derivatives are the hull of both, and higher ones are the whole real line.
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto max(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   Jet_3<T, Order, (A | B | 1)> r;
@@ -187,14 +186,14 @@ auto abs(const Jet_3<T, Order, A>& a) {
   return r;
 }
 
-/// The smaller of two functions, with derivatives as for max().
+/// The smaller of two functions, with derivatives like those of max().
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto min(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   return -max(-a, -b);
 }
 
 /// @{
-/// Overloads for equal types, without which std::max and std::min would match as well after `using std::max`.
+/// Overloads for equal types: after `using std::max`, std::max and std::min would otherwise be ambiguous.
 template <class T, int Order, Monomial_set A>
 auto max(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, A>& b) {
   return max<T, Order, A, A>(a, b);
@@ -207,18 +206,18 @@ auto min(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, A>& b) {
 
 } // namespace equiaffine
 
-/// \cond doxygen knows no members of std
-/// Limits of jets are those of their coefficients.
+/// \cond doxygen does not support members of std
+/// The limits of a jet are those of its coefficients.
 template <class T, int Order, equiaffine::Monomial_set Support>
 class std::numeric_limits<equiaffine::Jet_3<T, Order, Support>> : public std::numeric_limits<T> {
 public:
-  static constexpr bool is_iec559 = false; ///< a jet is no number of the processor
+  static constexpr bool is_iec559 = false; ///< a jet is not a hardware type
 };
 /// \endcond
 
 namespace equiaffine {
 
-// Trigonometric and hyperbolic functions, their inverses, angles and lengths of vectors.
+// Trigonometric and hyperbolic functions, their inverses, atan2 and hypot.
 
 /// The sine of a jet.
 template <class T, int Order, Monomial_set A>
@@ -279,7 +278,7 @@ auto tanh(const Jet_3<T, Order, A>& a) {
 
 namespace internal {
 
-/// Taylor coefficients 1 to 5 of asin at u; the value is left at zero.
+/// Taylor coefficients 1 to 5 of asin at u; coefficient 0 is zero.
 template <class T>
 std::array<T, 6> asin_derivatives(const T& u) {
   using std::sqrt;
@@ -295,7 +294,7 @@ std::array<T, 6> asin_derivatives(const T& u) {
 } // namespace internal
 
 /// @{
-/// The expansion of the function of this name, where the argument is a function with the given expansion.
+/// The expansion of a composed function, given the expansion of its argument.
 template <class T, int Order, Monomial_set A>
 auto asin(const Jet_3<T, Order, A>& a) {
   using std::asin;
@@ -322,8 +321,8 @@ auto atan(const Jet_3<T, Order, A>& a) {
 }
 /// @}
 
-/// The angle of (x, y), in (-pi, pi]: the angle of the direction (x_0, y_0) plus the angle relative to it, which is
-/// an arctangent at zero in every quadrant.
+/// The angle of (x, y), in (-pi, pi]. Computed as the angle of the direction (x_0, y_0) plus the angle relative to it,
+/// which is an arctangent near zero in every quadrant.
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto atan2(const Jet_3<T, Order, A>& y, const Jet_3<T, Order, B>& x) {
   using std::abs, std::atan2;
@@ -339,8 +338,8 @@ auto atan2(const Jet_3<T, Order, A>& y, const Jet_3<T, Order, B>& x) {
 
 namespace internal {
 
-/// The length of a vector of jets, given its value r. No square overflows or underflows: the sum below is 1 plus a part
-/// without a value.
+/// The length of a vector of jets, given its value r. Squares neither overflow nor underflow: the sum below has the
+/// value 1.
 template <class T, class... Jets>
 auto length(const T& r, const Jets&... x) {
   const T s = T(1) / r;
@@ -350,14 +349,15 @@ auto length(const T& r, const Jets&... x) {
 
 } // namespace internal
 
-/// sqrt(x^2 + y^2). At the origin the value is right and the derivatives are NaN (Interval: the whole line).
+/// sqrt(x^2 + y^2). At the origin the value is correct and the derivatives are NaN (for intervals: the whole real
+/// line).
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto hypot(const Jet_3<T, Order, A>& x, const Jet_3<T, Order, B>& y) {
   using std::hypot;
   return internal::length(T(hypot(x.value(), y.value())), x, y);
 }
 
-/// sqrt(x^2 + y^2 + z^2), at the origin as above.
+/// sqrt(x^2 + y^2 + z^2); the same holds at the origin.
 template <class T, int Order, Monomial_set A, Monomial_set B, Monomial_set C>
 auto hypot(const Jet_3<T, Order, A>& x, const Jet_3<T, Order, B>& y, const Jet_3<T, Order, C>& z) {
   using std::hypot;
@@ -381,18 +381,18 @@ EQUIAFFINE_MIXED_JET_FUNCTION(hypot)
 EQUIAFFINE_MIXED_JET_FUNCTION(atan2)
 #undef EQUIAFFINE_MIXED_JET_FUNCTION
 
-// The error function, and functions with steps: floor, sign and fmod, of numbers, packs and jets. Intervals have theirs
-// in Interval.h.
+// The error function, and the step functions floor, sign and fmod, of numbers, packs and jets. Interval.h has them for
+// intervals.
 
-/// 1 or -1, the sign of x, or x itself where it is 0 or NaN. Write `using equiaffine::sign; sign(x)`, as the standard
-/// library has no such function.
+/// The sign of x: 1, -1, or x itself if x is 0 or NaN. In templates write `using equiaffine::sign; sign(x)`, since the
+/// standard library has no such function.
 template <std::floating_point T>
 T sign(const T& x) {
   return x > T(0) ? T(1) : x < T(0) ? T(-1) : x;
 }
 
 /// @{
-/// Does in each lane what the function of this name does for T.
+/// Applies the function to each lane.
 template <class T, class Lanes>
 Pack<T, Lanes> sign(const Pack<T, Lanes>& a) {
   using P = Pack<T, Lanes>;
@@ -414,8 +414,8 @@ Pack<T, Lanes> fmod(const Pack<T, Lanes>& a, const Pack<T, Lanes>& b) {
 
 namespace internal {
 
-/// A function with steps: its value, and derivatives that are 0, or NaN where x is at a step. Intervals that contain a
-/// step have derivatives that are the whole line.
+/// A step function, given its value. Its derivatives are 0, or NaN if a is at a step. For intervals that contain a
+/// step, derivatives are the whole real line.
 template <class T, int Order, Monomial_set A>
 auto with_steps(const Jet_3<T, Order, A>& a, const T& value, const T& step) {
   const T slope = branch_or_kink(a.value(), step, T(1), T(1), 2) - T(1);
@@ -429,34 +429,34 @@ auto with_steps(const Jet_3<T, Order, A>& a, const T& value, const T& step) {
 
 /// The error function of a jet.
 template <class T, int Order, Monomial_set A>
-auto erf(const Jet_3<T, Order, A>& a) requires internal::own_steps::HasErf<T> {
+auto erf(const Jet_3<T, Order, A>& a) requires internal::own_functions::HasErf<T> {
   using std::erf;
   using std::exp;
   const T u = a.value(), u2 = u * u;
-  const T g = T(exp(T(-u2))) *
-              (T(0x1.20dd750429b6dp+0) + T(0x1.1ae3a914fed80p-56)); // 2 / sqrt(pi), which one double does not hold
+  const T g =
+      T(exp(T(-u2))) * (T(0x1.20dd750429b6dp+0) + T(0x1.1ae3a914fed80p-56)); // 2 / sqrt(pi), as a sum of two doubles
   const T third = (T(4) * u2 - T(2)) / T(6), fifth = (T(4) * u2 * (T(4) * u2 - T(12)) + T(12)) / T(120);
   return compose(a, std::array<T, 6>{T(erf(u)), g, -u * g, g * third, g * u * (T(3) - T(2) * u2) / T(6), g * fifth});
 }
 
-/// The largest whole number that is not greater than the value of a jet. Derivatives are 0, and NaN at whole numbers.
+/// The largest integer that does not exceed the value of a jet. Derivatives are 0, or NaN at integers.
 template <class T, int Order, Monomial_set A>
-auto floor(const Jet_3<T, Order, A>& a) requires internal::own_steps::HasFloor<T> {
+auto floor(const Jet_3<T, Order, A>& a) requires internal::own_functions::HasFloor<T> {
   using std::floor;
   const T value = floor(a.value());
   return internal::with_steps(a, value, value);
 }
 
-/// The sign of the value of a jet, 1, 0 or -1. Derivatives are 0, and NaN where the value is 0.
+/// The sign of the value of a jet: 1, 0 or -1. Derivatives are 0, or NaN where the value is 0.
 template <class T, int Order, Monomial_set A>
 auto sign(const Jet_3<T, Order, A>& a) requires requires(const T& x) {
   { sign(x) } -> std::convertible_to<T>;
 }
 { return internal::with_steps(a, T(sign(a.value())), T(0)); }
 
-/// The remainder of a / b, a - n b for a whole number n, with the sign of a. Where n changes, derivatives are NaN.
+/// The remainder a - n b of a / b for an integer n, with the sign of a. Derivatives are NaN where n jumps.
 template <class T, int Order, Monomial_set A, Monomial_set B>
-auto fmod(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) requires internal::own_steps::HasFmod<T> {
+auto fmod(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) requires internal::own_functions::HasFmod<T> {
   using std::fmod;
   const T value = fmod(a.value(), b.value()), n = (a.value() - value) / b.value();
   const T jump = jump_of_remainder(a.value(), b.value(), value);
@@ -467,13 +467,13 @@ auto fmod(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) requires int
 }
 
 /// @{
-/// The same where one of them is a number.
+/// The same if one argument is a number.
 template <class T, int Order, Monomial_set A, JetScalar<T> S>
-auto fmod(const Jet_3<T, Order, A>& a, const S& b) requires internal::own_steps::HasFmod<T> {
+auto fmod(const Jet_3<T, Order, A>& a, const S& b) requires internal::own_functions::HasFmod<T> {
   return fmod(a, Jet_3<T, Order, 1>(T(b)));
 }
 template <class T, int Order, Monomial_set B, JetScalar<T> S>
-auto fmod(const S& a, const Jet_3<T, Order, B>& b) requires internal::own_steps::HasFmod<T> {
+auto fmod(const S& a, const Jet_3<T, Order, B>& b) requires internal::own_functions::HasFmod<T> {
   return fmod(Jet_3<T, Order, 1>(T(a)), b);
 }
 /// @}

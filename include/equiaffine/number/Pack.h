@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// As many numbers as a vector register holds, on which templates of functions compute as on one number.
+// Packs: several numbers in one vector register. Function templates use a pack like a single number.
 #ifndef EQUIAFFINE_NUMBER_PACK_H
 #define EQUIAFFINE_NUMBER_PACK_H
 
@@ -16,8 +16,8 @@
 
 namespace equiaffine {
 
-/// Thrown when code branches on a condition that differs between the lanes of a pack. The caller then has to compute
-/// the points of the pack one by one.
+/// Thrown if code branches on a condition that differs between the lanes of a pack. The caller must then compute the
+/// points of the pack one by one.
 struct Lanes_disagree : std::exception {
   /// The message of the exception.
   const char* what() const noexcept override { return "the lanes of a pack disagree"; }
@@ -30,13 +30,13 @@ struct Pack_mask {
   Mask lanes;                        ///< one truth value per lane
 
   Pack_mask() = default;                           ///< leaves the lanes uninitialized
-  Pack_mask(bool value) : lanes(value) {}          ///< the same in all lanes
-  Pack_mask(const Mask& values) : lanes(values) {} ///< one per lane
+  Pack_mask(bool value) : lanes(value) {}          ///< the same value in all lanes
+  Pack_mask(const Mask& values) : lanes(values) {} ///< one value per lane
 
-  bool operator[](std::size_t lane) const { return lanes[lane]; } ///< that of one lane
+  bool operator[](std::size_t lane) const { return lanes[lane]; } ///< the value of one lane
 
-  /// The value that all lanes have in common: code with branches works for packs whose lanes agree.
-  /// \throw Lanes_disagree if they do not.
+  /// The common value of all lanes, so that code with branches works for packs whose lanes agree.
+  /// \throw Lanes_disagree if they differ
   explicit operator bool() const {
     if (Lanes::all(lanes)) return true;
     if (Lanes::any(lanes)) throw Lanes_disagree();
@@ -44,7 +44,7 @@ struct Pack_mask {
   }
 
   /// @{
-  /// Does in each lane what it does for a bool; both operands are evaluated.
+  /// The operator of bool in each lane; both operands are evaluated.
   [[gnu::always_inline]] friend Pack_mask operator!(const Pack_mask& a) { return !a.lanes; }
   [[gnu::always_inline]] friend Pack_mask operator&&(const Pack_mask& a, const Pack_mask& b) {
     return a.lanes && b.lanes;
@@ -58,14 +58,15 @@ struct Pack_mask {
   friend bool any(const Pack_mask& condition) { return Lanes::any(condition.lanes); }
 };
 
-/// A pack holds as many numbers as one vector register does under the compiler's flags, and is used like one number, by
-/// Jet_3, Monge_chart_3 and the code that uses these. Every operation is that of T in each lane. Functions are those of
-/// `<cmath>`, except exp, sin and cos of doubles, which are the library's own. So a lane has the same bits as a
-/// computation with T, unless the compiler contracts products and sums to fused operations, which GCC does by default
-/// for processors that have them (see -ffp-contract): then both are equal to within rounding.
+/// As many numbers as fit into a vector register under the compiler's flags, used like one number by Jet_3,
+/// Monge_chart_3 and code that builds on these. Every operation is that of T in each lane. Functions are those of
+/// `<cmath>`, except exp, sin and cos of doubles, which are the library's own. A lane is therefore bitwise equal to a
+/// computation with T, unless the compiler contracts products and sums to fused operations (-ffp-contract; GCC does so
+/// by default where the processor supports it). Then both agree up to rounding.
 ///
-/// `Lanes` says how lanes are kept: in a vector of the compiler if it has such, else in an array. Results are the same.
-template <class T, class Lanes> // a default is in select.h
+/// `Lanes` is the storage of the lanes: a vector type of the compiler if available, otherwise an array. Results are the
+/// same.
+template <class T, class Lanes> // default arguments: select.h
 struct Pack {
   using Vector = typename Lanes::Vector;           ///< the vector of numbers
   using Mask = Pack_mask<T, Lanes>;                ///< the result of a comparison
@@ -73,7 +74,7 @@ struct Pack {
 
   Vector lanes; ///< one number per lane
 
-  Pack() = default; ///< leaves the lanes uninitialized: zeroing them costs factors in jets
+  Pack() = default; ///< leaves the lanes uninitialized, since zeroing them would slow down jets considerably
   /// The same number in all lanes.
   template <class Number>
   Pack(const Number& value) requires(std::is_arithmetic_v<Number>) : lanes(static_cast<T>(value)) {}
@@ -94,7 +95,7 @@ struct Pack {
   T operator[](std::size_t lane) const { return lanes[lane]; } ///< the number in one lane
 
   /// @{
-  /// Does in each lane what it does for T.
+  /// The operation of T in each lane.
   [[gnu::always_inline]] Pack operator-() const { return -lanes; }
   Pack operator+() const { return *this; }
   Pack& operator+=(const Pack& b) { return *this = *this + b; }
@@ -122,13 +123,13 @@ struct Pack {
   [[gnu::always_inline]] friend Pack sqrt(const Pack& a) { return Lanes::sqrt(a.lanes); }
   /// @}
   /// @{
-  /// A NaN in either argument gives NaN.
+  /// The result is NaN if an argument is NaN.
   friend Pack min(const Pack& a, const Pack& b) { return select(a < b || a != a, a, b); }
   friend Pack max(const Pack& a, const Pack& b) { return select(a > b || a != a, a, b); }
   /// @}
 
 #define EQUIAFFINE_PACK_FUNCTION(name)                                                                                 \
-  /** Does in each lane what the function of C++ does. */                                                              \
+  /** Applies the function of `<cmath>` to each lane. */                                                               \
   friend Pack name(const Pack& a) {                                                                                    \
     return lane_by_lane(a, [](T u) { return std::name(u); });                                                          \
   }
@@ -143,7 +144,7 @@ struct Pack {
   EQUIAFFINE_PACK_FUNCTION(tanh)
 #undef EQUIAFFINE_PACK_FUNCTION
 #define EQUIAFFINE_PACK_FUNCTION(name)                                                                                 \
-  /** Does in each lane what the function of C++ does. */                                                              \
+  /** Applies the function of `<cmath>` to each lane. */                                                               \
   friend Pack name(const Pack& a, const Pack& b) {                                                                     \
     return generate([&](std::size_t i) { return std::name(a[i], b[i]); });                                             \
   }
@@ -153,7 +154,7 @@ struct Pack {
 #undef EQUIAFFINE_PACK_FUNCTION
 
   /// @{
-  /// Does in each lane what the library's own function does for doubles, and that of `<cmath>` for other types.
+  /// Applies the library's own function to each lane for doubles, and that of `<cmath>` for other types.
   [[gnu::always_inline]] friend Pack exp(const Pack& a) {
     if constexpr (std::is_same_v<T, double>)
       if (const Mask in_range = abs(a) <= Pack(internal::exponential_range); Lanes::all(in_range.lanes))
@@ -171,17 +172,17 @@ struct Pack {
   friend Pack cos(const Pack& a) { return sine_and_cosine(a).second; }
   /// @}
 
-  /// 2^(k / 128) (1 + p) for small p and integers k, given as k + 1.5 2^52; exp() of packs consists of it.
+  /// 2^(k / 128) (1 + p) for small p and integers k, given as k + 1.5 2^52. Used by exp().
   [[gnu::always_inline]] friend Pack scaled_exponential(const Pack& k, const Pack& p) {
     return Lanes::scaled_exponential(k.lanes, p.lanes);
   }
 
-  /// a^n, with the bits that jets of T have.
+  /// a^n, bitwise equal to that of T.
   friend Pack natural_power(const Pack& a, unsigned n) {
     return generate([&](std::size_t i) { return internal::natural_power(a[i], n); });
   }
 
-  /// Does in each lane what branch_or_kink in select.h does for a number.
+  /// branch_or_kink() of select.h in each lane.
   friend Pack branch_or_kink(const Pack& u, const Pack& v, const Pack& a, const Pack& b, int degree) {
     const Pack at_kink = degree == 0 ? select(u == v, a, u + v) : Pack(std::numeric_limits<T>::quiet_NaN());
     return select(u > v, a, select(v > u, b, at_kink));
@@ -190,7 +191,7 @@ struct Pack {
 
 } // namespace equiaffine
 
-/// The limits of a pack are those of T, which convert to packs.
+/// The limits of a pack are those of T.
 /// \cond
 template <class T, class Lanes>
 struct std::numeric_limits<equiaffine::Pack<T, Lanes>> : std::numeric_limits<T> {};

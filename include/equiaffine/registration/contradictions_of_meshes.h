@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What speaks against a map that has moved one of two meshes to the other.
+// Evidence against a map that has moved one of two meshes to the other.
 #ifndef EQUIAFFINE_REGISTRATION_CONTRADICTIONS_OF_MESHES_H
 #define EQUIAFFINE_REGISTRATION_CONTRADICTIONS_OF_MESHES_H
 
@@ -10,30 +10,30 @@
 
 namespace equiaffine {
 
-/// The evidence of two meshes against the map that has brought them together.
+/// The evidence of two meshes against the map that aligned them.
 struct Mesh_contradictions {
-  /// The points of each mesh that lie on the other one, as a part of all.
+  /// The fraction of the points of each mesh that lie on the other one.
   std::array<double, 2> inliers = {0, 0};
-  /// The points of each mesh that lie off the other one although it does not end there, as a part of these and of those
-  /// that lie on it.
+  /// The points of each mesh off the other one although it does not end there, as a fraction of these and of those
+  /// on it.
   std::array<double, 2> parts = {0, 0};
-  double rms = 0; ///< the root of the mean squared distance of the points that lie on the other mesh
-  /// Whether both meshes have symmetries that are exact, so that they are solids with these corners, and no samples of
-  /// a smooth surface.
+  double rms = 0; ///< root mean square distance of the points that lie on the other mesh
+  /// Whether both meshes have exact symmetries, so that they are solids with these corners rather than samples of a
+  /// smooth surface.
   bool are_exact_solids = false;
-  bool are_closed = false; ///< whether neither mesh has a border, so that both end nowhere
+  bool are_closed = false; ///< whether neither mesh has a border
 };
 
 } // namespace equiaffine
 
-// The library defines this function.
+// Defined in the library.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 namespace equiaffine::internal {
 
-/// Returns the contradictions with the side of the source by which more points are in contact. Meshes without an area
-/// have none.
+/// Returns the contradictions for the orientation of the source with more points in contact. Meshes without an area
+/// have no contradictions.
 Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 target, double distance);
 
 } // namespace equiaffine::internal
@@ -43,12 +43,12 @@ Mesh_contradictions contradictions_of_triangles(Triangles_3 source, Triangles_3 
 
 namespace equiaffine {
 
-/// Returns what speaks against a map that has moved one of two meshes, points with polygons between them, to the other:
-/// points of either mesh that lie off the other one although it does not end there. Points within `distance`, or within
-/// what facets are off a smooth surface, lie on it. Either mesh may be inside out.
+/// Returns the evidence against a map that has moved one of two polygon soups to the other: points of either mesh
+/// that lie off the other one although it does not end there. Points lie on the other mesh if they are within
+/// `distance`, or within the distance of facets from a smooth surface. Either mesh may be inside out.
 ///
-/// Takes 16,000 nearest points of a tree.
-/// \throw std::invalid_argument if a coordinate is not finite, or a polygon has the position of no point.
+/// Takes 16,000 nearest-point queries.
+/// \throw std::invalid_argument if a coordinate is not finite, or an index of a polygon is out of range.
 template <std::ranges::input_range Points, std::ranges::input_range Polygons, std::ranges::input_range Target_points,
           std::ranges::input_range Target_polygons>
 Mesh_contradictions contradictions_of_meshes(const Points& points, const Polygons& polygons,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether there is a map that moves each of two surfaces onto the other.
+// Decides whether a map moves each of two surfaces onto the other.
 #ifndef EQUIAFFINE_REGISTRATION_IS_AFFINELY_EQUIVALENT_H
 #define EQUIAFFINE_REGISTRATION_IS_AFFINELY_EQUIVALENT_H
 
@@ -15,16 +15,16 @@
 
 #include <ranges>
 
-// The library defines this function.
+// Defined in the library.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 namespace equiaffine::internal {
 
-/// Whether it was verified that no map of a kind moves one whole surface onto another. Such a map would keep the
-/// centroid of the area, and affine ones the moments of the solid inside, so that all rotations and reflections about
-/// the centroid are tried in the coordinates of the search for symmetries: each moves points of the first away from the
-/// second.
+/// Whether it was verified that no map of a kind moves one whole surface onto another. Such a map preserves the
+/// centroid of the area, and an affine one the moments of the solid inside. Therefore all rotations and reflections
+/// about the centroid are tried in the coordinates of the symmetry search; none may move the points of the first
+/// surface close to the second.
 bool differ_as_wholes(bool in_threads, const Any_function_3& source, const Any_function_3& target, Map_kind kind,
                       bool allows_reflections);
 
@@ -35,15 +35,15 @@ bool differ_as_wholes(bool in_threads, const Any_function_3& source, const Any_f
 
 namespace equiaffine {
 
-/// Returns whether there is a map that moves each of two surfaces onto the other: all but 2 % of their points, of those
-/// that stay in the box of the other function.
+/// Returns whether a map moves each of two surfaces onto the other: all but 2 % of their points, not counting those
+/// outside of the box of the other function.
 ///
-/// The answer is true if register_surfaces() finds such a map, and false if the map that it finds moves a part only, or
-/// if all rotations of the whole surfaces were tried, in coordinates in which their solids are round, and none moves
-/// one near the other. Else it is indeterminate, as for surfaces that leave their boxes and have no map with evidence:
-/// the conversion to bool throws CGAL::Uncertain_conversion_exception then. The options are those of
-/// register_surfaces(); `fit` does not matter.
-/// \throw Input_error if an option makes no sense. \throw std::invalid_argument if a surface has no points.
+/// The answer is true if register_surfaces() finds such a map. It is false if the best map moves only a part, or if
+/// all rotations of the whole surfaces were tried, in coordinates in which their solids are round, and none moves
+/// one close to the other. Otherwise it is indeterminate, for example for surfaces that leave their boxes and have
+/// no map with evidence; the conversion to bool then throws CGAL::Uncertain_conversion_exception. The options are
+/// those of register_surfaces(); `fit` is ignored.
+/// \throw Input_error if an option is invalid. \throw std::invalid_argument if a surface has no points.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Source, std::ranges::input_range Points,
           ImplicitFunctionTraits_3 Target, std::ranges::input_range Target_points>
 CGAL::Uncertain<bool> is_affinely_equivalent(const Source& source, const Points& source_points, const Target& target,

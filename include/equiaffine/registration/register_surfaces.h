@@ -28,50 +28,52 @@
 
 namespace equiaffine {
 
-/// A point of the source and one of the target whose frames gave a map, which carries one frame to the other.
+/// A point of the source and one of the target with the frames that determined a map.
 template <class Kernel>
 struct Pair_of_frames_3 {
   std::array<typename Kernel::Point_3, 2> points;                 ///< of the source, and of the target
   std::array<std::array<typename Kernel::Vector_3, 3>, 2> frames; ///< two tangent vectors and a transversal one each
 };
 
-/// A map that moves the source, or a part of it, onto the target, and what there is to trust it.
+/// A map from (part of) the source to the target, with the evidence for it.
 template <class Kernel>
 struct Registered_map_3 {
   typename Kernel::Aff_transformation_3 map; ///< from the source to the target
-  /// The logarithm of the number of maps as good as this one that chance would make of all that were tried.
+  /// Base 10 logarithm of the number of false alarms: the expected number of equally good maps by chance among all
+  /// that were tried.
   double log10_false_alarms;
-  /// The parts of the points of the source, and of the target, that lie on the other surface.
+  /// The fractions of the points of the source and of the target that lie on the other surface.
   std::array<double, 2> inliers;
-  double rms; ///< the root of the mean squared distance of these points, in the unit of the target
-  /// None if the map is one of a continuous family, or of whole surfaces or pieces that were matched without curvature.
+  double rms; ///< root mean square distance of these points, in the unit of the target
+  /// Empty if the map is one of a continuous family, or if whole surfaces or pieces were matched without curvature.
   std::optional<Pair_of_frames_3<Kernel>> pair;
-  /// The parts of the points of the source, and of the target, that lie off the other surface although that does not
-  /// end there, for maps between meshes: they speak against the map, or tell where the surfaces differ.
+  /// For maps between meshes: the fractions of the points of the source and of the target that lie off the other
+  /// surface although that does not end there. They are evidence against the map, or show where the surfaces differ.
   std::optional<std::array<double, 2>> contradictions = {};
 };
 
 /// The result of `register_surfaces`.
 template <class Kernel>
 struct Surface_registration_3 {
-  std::vector<Registered_map_3<Kernel>> maps; ///< the best first; empty if there is no evidence for any
-  std::size_t hypotheses = 0;                 ///< the number of maps that were tried
-  double size = 0;                            ///< of the target: the rms distance of its points from their centroid
-  std::size_t equally_good = 0;               ///< how many other maps, at least, fit as well as the first of `maps`
-  std::optional<double> next_best_rms;        ///< of the best map that is not the first one of `maps`, if there was one
+  std::vector<Registered_map_3<Kernel>> maps; ///< best first; empty if there is no evidence for any
+  std::size_t hypotheses = 0;                 ///< number of maps that were tried
+  double size = 0;                            ///< root mean square distance of the points of the target from their
+                                              ///< centroid
+  std::size_t equally_good = 0;               ///< a lower bound on the number of other maps that fit as well as the
+                                              ///< first of `maps`
+  std::optional<double> next_best_rms;        ///< of the best map other than the first of `maps`, if any
   /// How the source slides over itself by maps of the kind. If the dimension is not 0, each of `maps` represents a
   /// continuous family.
   Affine_slippage_3 slippage;
-  std::string reason = {}; ///< why the maps between meshes that were tried are not accepted, if that is known
-  /// The scales of fits to the source and to the target that were tried one after the other, the last ones with
-  /// success.
+  std::string reason = {}; ///< why maps between meshes were rejected, if known
+  /// The scales of fits to the source and to the target, in the order in which they were tried; the last ones were
+  /// successful.
   std::vector<std::array<double, 2>> scales = {};
-  bool is_by_triangles = false; ///< whether triangles gave `maps`, without their curvature
-  /// How many maps with evidence are not among `maps`, since too small a part of the surfaces agrees, or the sizes of
-  /// the surfaces have another ratio than the scales of their fits, or since a large part of a closed mesh is off the
-  /// other.
+  bool is_by_triangles = false; ///< whether `maps` come from triangles, without curvature
+  /// The number of maps with evidence that are not in `maps`: too small a part of the surfaces agrees, the ratio of
+  /// the sizes differs from that of the scales of the fits, or a large part of a closed mesh is off the other.
   std::size_t maps_left_out = 0;
-  std::vector<Registration_advice> advice = {}; ///< what may find a map if there is none, the most promising first
+  std::vector<Registration_advice> advice = {}; ///< what may find a map if there is none; most promising first
 
   bool found() const { return !maps.empty(); }                          ///< whether there is a map
   const Registered_map_3<Kernel>& best() const { return maps.front(); } ///< \pre found()
@@ -81,7 +83,7 @@ struct Surface_registration_3 {
 
 namespace equiaffine::internal {
 
-// The library defines these functions. They run in the threads of TBB if `in_threads`.
+// Defined in the library. They use TBB threads if `in_threads`.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
@@ -92,28 +94,28 @@ struct Registration_of_functions_3 {
   bool is_equivalence = false;
 };
 
-/// Compares surfaces as they are. Whole surfaces of exact functions whose frames give no map are tried without frames.
+/// Compares surfaces as they are. If frames of whole surfaces of exact functions give no map, these are compared
+/// without frames.
 Registration_of_functions_3 registration_of_functions(bool in_threads, const Surface_to_register& source,
                                                       const Surface_to_register& target,
                                                       const Registration_options& options);
 
-/// Meshes are tried as wholes, and then as pieces, without curvature.
+/// Compares meshes without curvature, first as wholes, then as pieces.
 Surface_registration_3<Kernel_of_searches> registration_of_triangles(bool in_threads, const Triangles_3& source,
                                                                      const Triangles_3& target,
                                                                      const Registration_options& options);
 
-/// The result of register_surfaces(), and the surfaces as they were compared last, at the scales that were tried.
+/// The result of register_surfaces(), and the surfaces at the scales that were compared last.
 struct Registration_of_surfaces {
   Surface_to_register source, target;
   Surface_registration_3<Kernel_of_searches> result = {};
 };
 
-/// Frames of curvature are compared first, at one scale after the other where the data choose the scale, then
-/// triangles.
+/// Compares frames of curvature first, at several scales if the scale is chosen from the data, and then triangles.
 Registration_of_surfaces registration_of_surfaces(bool in_threads, Surface_to_register source,
                                                   Surface_to_register target, const Registration_options& options);
 
-/// The same for surfaces that are fitted to data.
+/// The same for surfaces fitted to data.
 Surface_registration_3<Kernel_of_searches> registration_of_data(bool in_threads, const Surface_data_3& source,
                                                                 const Surface_data_3& target,
                                                                 const Registration_options& options);
@@ -122,7 +124,7 @@ Surface_registration_3<Kernel_of_searches> registration_of_data(bool in_threads,
 #pragma GCC visibility pop
 #endif
 
-// Results of searches become those of another kernel.
+// Conversion of results to another kernel.
 
 template <class Kernel>
 Pair_of_frames_3<Kernel> in_kernel(const Pair_of_frames_3<Kernel_of_searches>& pair) {
@@ -164,26 +166,27 @@ Surface_registration_3<Kernel> in_kernel(Surface_registration_3<Kernel_of_search
 
 namespace equiaffine {
 
-/// Finds the maps that move the surface `source`, or a part of it, onto the surface `target`. Each surface is a
-/// function and a range of points on its zero set, which are moved onto it if they are near; the functions are of any
-/// models of the concept, and defined on their boxes.
+/// Finds the maps that move the surface `source`, or a part of it, onto the surface `target`. Each surface is given
+/// by a function and a range of points on its zero set; points near it are moved onto it. The functions are of any
+/// models of the concept, defined on their boxes.
 ///
-/// The affine frame at one generic point of the source and that at its counterpart give the map, or the frames of the
-/// principal directions for maps that keep angles. Counterparts are found by their signatures: the nearest ones among
-/// the points of the target, by a tree, then exactly, by Newton's steps on the target. A map is judged by the distances
-/// of points both ways, refined by least squares, and accepted if fewer than 1e-6 as good ones are expected by chance:
-/// neither an overlap nor the absence of other things is assumed. Points lie on the other surface if they are within
-/// the noise, which is that of the given points: the tolerance is 8 times their median distance from the zero sets, at
-/// least 1e-5 of the size of the target, and at most 3e-3 of it, since large parts of unrelated surfaces can be moved
-/// onto each other to within more. Where the frame of a point is not determined, as the affine one on quadrics, it is
-/// not matched: surfaces with continuous symmetries have a slippage, see Surface_registration_3. A fit
-/// (Fitted_function_traits_3) estimates its errors: points where its curvatures are uncertain are tried later. Whole
-/// surfaces of other functions without such frames, as boxes, are matched as meshes are. `fit` of the options does not
-/// matter.
+/// A map is determined by the affine frame at one generic point of the source and that at its counterpart; for maps
+/// that preserve angles, by the frames of the principal directions. Counterparts are found by their signatures:
+/// first the nearest points of the target in a tree, then exactly, by Newton steps on the target. A map is judged by
+/// the distances of points in both directions, refined by least squares, and accepted if the expected number of
+/// equally good maps by chance is below 1e-6. Neither a minimum overlap nor the absence of clutter is assumed.
+///
+/// Points lie on the other surface if they are within the noise of the given points: the tolerance is 8 times their
+/// median distance from the zero sets, at least 1e-5 and at most 3e-3 of the size of the target, because large parts
+/// of unrelated surfaces can be aligned to within more. Points without a well-defined frame, such as an affine one
+/// on quadrics, are not matched; surfaces with continuous symmetries have a slippage, see Surface_registration_3. A
+/// fit (Fitted_function_traits_3) estimates its errors, so points with uncertain curvatures are tried later. Whole
+/// surfaces of other functions without such frames, such as boxes, are matched like meshes. `fit` of the options is
+/// ignored.
 ///
 /// Takes 5 expansions for each of up to 6000 points of a surface, and a number of hypotheses that does not depend on
 /// the number of points. The result is the same for CGAL::Sequential_tag and CGAL::Parallel_tag, bit for bit.
-/// \throw Input_error if an option makes no sense. \throw std::invalid_argument if a surface has no points.
+/// \throw Input_error if an option is invalid. \throw std::invalid_argument if a surface has no points.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Source, std::ranges::input_range Points,
           ImplicitFunctionTraits_3 Target, std::ranges::input_range Target_points>
 Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source, const Points& source_points,
@@ -197,42 +200,43 @@ Surface_registration_3<Kernel_of<Target>> register_surfaces(const Source& source
           .result);
 }
 
-/// The same for two meshes, models of CGAL's FaceGraph, or ranges of points without faces, or one of each: the map is
-/// that of `equiaffine register`, bit for bit.
+/// The same for two meshes, models of CGAL's FaceGraph, or ranges of points without faces, or one of each. The map
+/// is that of `equiaffine register`, bit for bit.
 ///
-/// Curvatures are compared first, as above, those of fits to the vertices (Fitted_function_traits_3). Where the data do
-/// not resolve the surface, curvatures are those at a scale, and can be compared at the same scale only: without
-/// `fit.scale`, and unless both surfaces have a map by curvatures of their own, scales of 10, 14, 7 and 20 times the
-/// mean distance of the points are tried, up to half of the diagonal, the same length for both and, if the distances
-/// differ by a fifth, each surface's own. A map at a scale is accepted if six separate parts of the size of the scale
-/// agree and if it changes lengths about as the scales differ. Maps between closed meshes by which 10 % of one of them
-/// are off the other are left out. `scales` and `maps_left_out` of the result tell of it.
+/// First, curvatures of fits to the vertices (Fitted_function_traits_3) are compared as above. Where the data do not
+/// resolve the surface, curvatures are those at a scale, and can be compared only at equal scales. Without
+/// `fit.scale`, and unless the curvatures of the surfaces themselves give a map, scales of 10, 14, 7 and 20 times
+/// the mean distance of the points are tried, up to half of the diagonal: the same length for both, and, if the
+/// distances differ by a fifth, each surface's own. A map at a scale is accepted if six separate regions of the size
+/// of the scale agree, and if it changes lengths about as the scales differ. Maps between closed meshes are left out
+/// if they leave 10 % of one mesh off the other. See `scales` and `maps_left_out` of the result.
 ///
-/// Two meshes without such a map are compared by their triangles, without any curvature (`is_by_triangles`): boxes and
-/// other CAD parts have none to go by. If the whole surfaces are equal, the map keeps the centroid of the area, and an
-/// affine one the moments of the solid inside, so that all rotations and reflections about the centroid are searched by
-/// branch and bound. Else pieces are matched by similarities: two points with their normals give a frame, pairs of
-/// points with about the same distance and angles are tried, and a map is accepted if the points in contact leave it no
-/// freedom, at most 2 % of the points of one surface lie off the other although that does not end there
-/// (`contradictions`), and fewer than 1e-6 as good maps are expected by chance. The `tolerance` is the rms distance of
-/// surfaces that are equal, a part of the size; by default it is what facets explain, 0.3 % to 1 %, and 2e-5 for solids
-/// of planes, which have no other facets. Without one, two scans of an object that are not equal, such as a fine and a
-/// coarse one, are matched if one map stands out: its rms is below 1.5 % of the size, less for thin surfaces, and less
-/// than half of that of every other map, and less than 10 % of the points are off the other surface.
+/// Two meshes without such a map are compared by their triangles, without curvature (`is_by_triangles`), because
+/// curvature does not help for boxes and other CAD parts. If the whole surfaces are equal, the map preserves the
+/// centroid of the area, and an affine one the moments of the solid inside, so all rotations and reflections about
+/// the centroid are searched by branch and bound. Otherwise pieces are matched by similarities. Two points with
+/// their normals give a frame, and pairs of points with similar distances and angles are tried. A map is accepted if
+/// the points in contact leave it no freedom, if at most 2 % of the points of one surface lie off the other although
+/// that does not end there (`contradictions`), and if fewer than 1e-6 equally good maps are expected by chance.
+/// `tolerance` is the rms distance between equal surfaces, relative to the size. By default it is what facets
+/// explain, 0.3 % to 1 %, and 2e-5 for solids bounded by planes, whose facets are exact. Without a tolerance, two
+/// different scans of an object, such as a fine and a coarse one, are matched if one map stands out: its rms is
+/// below 1.5 % of the size (less for thin surfaces) and below half of that of every other map, and less than 10 % of
+/// the points are off the other surface.
 ///
 /// Takes 1 to 3 ms per vertex for a fit, up to 9 fits of each surface if there is no map, and then 5 to 40 s on one
-/// core for triangles whose wholes are not equal. Named parameters are in a chain for the source and a second one for
-/// the target; parameters::joined() makes one chain of several:
+/// core for triangles of surfaces that are not equal as wholes. Named parameters are in a chain for the source and a
+/// second one for the target; parameters::joined() combines chains. `geom_traits` and `verbose` are accepted for
+/// compatibility with CGAL, and ignored.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
 /// | `vertex_point_map` | property map | the mesh's own | from vertices of a mesh to points |
 /// | `point_map` | property map | the elements | from elements of a range to points |
 /// | `normal_map` | property map | estimated | from elements of a range to normals |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
 ///
-/// \throw Input_error if an option makes no sense. \throw std::invalid_argument if a coordinate is not finite, a mesh
-/// has no faces, or a range no points.
+/// \throw Input_error if an option is invalid. \throw std::invalid_argument if a coordinate is not finite, a mesh
+/// has no faces, or a range has no points.
 template <class ConcurrencyTag = CGAL::Sequential_tag, internal::Mesh_or_points Source, internal::Mesh_or_points Target,
           internal::Parameter_chain Parameters = internal::No_parameters,
           internal::Parameter_chain Target_parameters = internal::No_parameters>
@@ -246,8 +250,8 @@ auto register_surfaces(const Source& source, const Target& target, const Registr
       internal::surface_data(target, internal::joined_parameters(given_of_target)), options));
 }
 
-/// The same for points with polygons between them, each a range of positions of points. Equal points count once.
-/// \throw std::invalid_argument also if a polygon has the position of no point.
+/// The same for polygon soups: points, and polygons as ranges of point indices. Equal points count once.
+/// \throw std::invalid_argument also if an index is out of range.
 template <class ConcurrencyTag = CGAL::Sequential_tag, std::ranges::input_range Points,
           std::ranges::input_range Polygons, std::ranges::input_range Target_points,
           std::ranges::input_range Target_polygons>

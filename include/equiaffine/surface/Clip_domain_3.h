@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// A closed box or ball that clips a surface.
 #ifndef EQUIAFFINE_SURFACE_CLIP_DOMAIN_3_H
 #define EQUIAFFINE_SURFACE_CLIP_DOMAIN_3_H
 
@@ -16,7 +17,7 @@
 
 namespace equiaffine::internal {
 
-/// The default of the greatest radius of facets in a box.
+/// The default maximum facet radius in a box.
 inline double default_facet_radius(const CGAL::Bbox_3& box) {
   return std::hypot(box.x_span(), box.y_span(), box.z_span()) / 50;
 }
@@ -25,7 +26,7 @@ inline double default_facet_radius(const CGAL::Bbox_3& box) {
 
 namespace equiaffine {
 
-/// A closed box or ball, in which a surface is sought and at whose border it is cut off.
+/// A closed box or ball that clips a surface.
 class Clip_domain_3 {
 public:
   /// \throw std::invalid_argument unless the box has an interior and finite sides
@@ -39,7 +40,7 @@ public:
     check();
   }
 
-  /// The ball about a point of CGAL. \throw std::invalid_argument as above
+  /// The ball around a point of CGAL. \throw std::invalid_argument as above
   template <class Point_3>
   Clip_domain_3(const Point_3& center, double radius) requires requires {
     CGAL::to_double(center.x());
@@ -55,7 +56,7 @@ public:
   } : Clip_domain_3(sphere.center(), std::sqrt(CGAL::to_double(sphere.squared_radius()))) {
   }
 
-  /// The largest ball in a box about its center.
+  /// The largest ball around the center of a box that fits into it.
   static Clip_domain_3 ball_in(const CGAL::Bbox_3& box) {
     double radius = (box.max(0) - box.min(0)) / 2;
     std::array<double, 3> center;
@@ -69,11 +70,11 @@ public:
   bool is_ball() const { return radius_ > 0; }                    ///< whether it is a ball
   const std::array<double, 3>& center() const { return center_; } ///< center of the ball
   double radius() const { return radius_; }                       ///< radius of the ball; 0 for a box
-  const CGAL::Bbox_3& bbox() const { return box_; }               ///< the box, or the one around the ball
-  /// The length of the diagonal of bbox().
+  const CGAL::Bbox_3& bbox() const { return box_; }               ///< the box, or the bounding box of the ball
+  /// The diagonal of bbox().
   double diagonal() const { return std::hypot(box_.x_span(), box_.y_span(), box_.z_span()); }
 
-  /// Whether a point lies in the domain, its border included.
+  /// Whether a point lies in the domain or on its border.
   template <class Point_3>
   bool contains(const Point_3& p) const {
     double squared_distance = 0;
@@ -84,7 +85,7 @@ public:
     return !is_ball() || squared_distance <= radius_ * radius_;
   }
 
-  /// Whether a box has no point in the domain.
+  /// Whether a box is disjoint from the domain.
   bool excludes(const CGAL::Bbox_3& box) const {
     double squared_distance = 0;
     for (int a = 0; a < 3; ++a) {
@@ -95,7 +96,7 @@ public:
     return is_ball() && squared_distance > radius_ * radius_;
   }
 
-  /// Returns the first and last t, within the given ones, of the part of the line p + t d inside the domain.
+  /// Returns the first and last t in [first, last] for which p + t d lies in the domain.
   template <class Point_3, class Vector_3>
   std::optional<std::pair<double, double>> clip(const Point_3& p, const Vector_3& d, double first, double last) const {
     for (int a = 0; a < 3; ++a) {
@@ -118,7 +119,7 @@ public:
   }
 
 private:
-  /// First and last t for which p + t d is in the ball.
+  /// The first and last t for which p + t d lies in the ball.
   template <class Point_3, class Vector_3>
   std::optional<std::pair<double, double>> parameters_in_ball(const Point_3& p, const Vector_3& d) const {
     double dd = 0, qd = 0, qq = 0; // products of d and q = p - center
@@ -136,7 +137,7 @@ private:
   void check() const {
     check_argument(
         box_.x_span() > 0 && box_.y_span() > 0 && box_.z_span() > 0,
-        "a clip domain has no interior: choose a box whose upper bounds are greater than the lower ones, or a "
+        "a clip domain has no interior: choose a box whose upper bounds are greater than its lower bounds, or a "
         "positive radius");
     check_argument(std::isfinite(diagonal()), "a clip domain is not bounded: choose finite coordinates");
   }

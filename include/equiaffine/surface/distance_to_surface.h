@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The greatest distance of points to the zero set of a function, to first order.
+// The maximum distance of points to the zero set of a function, to first order.
 #ifndef EQUIAFFINE_SURFACE_DISTANCE_TO_SURFACE_H
 #define EQUIAFFINE_SURFACE_DISTANCE_TO_SURFACE_H
 
@@ -25,14 +25,14 @@
 
 namespace equiaffine::internal {
 
-/// This takes a step of Newton's method from a point towards a zero of f.
+/// A step of Newton's method from a point toward a zero of f.
 template <class Kernel>
 struct Newton_step_3 {
   using FT = typename Kernel::FT;
   using Vector_3 = typename Kernel::Vector_3;
 
-  /// The distance is the length of Newton's step. Where it is shorter than `resolvable`, rounding decides the value at
-  /// its end, and a step much longer than that is taken.
+  /// The distance is the length of Newton's step. If it is shorter than `resolvable`, rounding determines the value
+  /// at its end, and a much longer step is taken.
   Newton_step_3(const typename Kernel::Point_3& p, const Jet_3<FT, 1>& jet, const FT& resolvable)
       : distance(distance_estimate(jet)), value(jet.value()), is_short(distance < resolvable), end(p) {
     using std::abs;
@@ -45,10 +45,10 @@ struct Newton_step_3 {
     end = p + (value > FT(0) ? -length : length) / sqrt(slope.squared_length()) * slope;
   }
 
-  /// Whether the step does not lead to a zero, as the value at its end shows. To a zero of order m, f changes its sign
-  /// or shrinks by the factor (1 - 1/m)^m, which is less than 1/e. Away from a pole of order n it keeps its sign and
-  /// shrinks by (1 + 1/n)^-n, which is more. At the end of a longer step it has grown beyond a zero, and has shrunk
-  /// away from a pole. Nothing is concluded where f is undefined at the end.
+  /// Whether the value at the end of the step shows that it does not lead to a zero. Toward a zero of order m, f
+  /// changes its sign or shrinks by the factor (1 - 1/m)^m, which is less than 1/e. Away from a pole of order n it
+  /// keeps its sign and shrinks by (1 + 1/n)^-n, which is more. A longer step that passes a zero ends at a larger
+  /// |f|; away from a pole it ends at a smaller one. Returns false if f is undefined at the end.
   bool leads_away_from_zeros(const FT& value_at_end) const {
     using std::abs;
     if (!(distance > FT(0)) || is_sign_change(value, value_at_end)) return false;
@@ -61,8 +61,8 @@ struct Newton_step_3 {
   typename Kernel::Point_3 end;
 };
 
-/// This keeps the greatest distance of some points. It is NaN if Newton's method leads away from zeros at one of them,
-/// or if there is none. What is undefined does not count.
+/// The maximum distance of a set of points; NaN if Newton's method leads away from zeros at one of them, or if the
+/// set is empty. Undefined distances are ignored.
 template <class FT>
 struct Greatest_distance {
   void add(const FT& distance) {
@@ -75,7 +75,7 @@ struct Greatest_distance {
   bool is_unknown = false;
 };
 
-/// Returns the greatest distance of points that are evaluated together.
+/// Returns the maximum distance of points that are evaluated together.
 template <class Traits>
 Greatest_distance<typename Traits::FT> greatest_distance_of_block(const Batch_function_traits_3<Traits>& traits,
                                                                   std::span<const typename Traits::Point_3> points,
@@ -103,15 +103,16 @@ Greatest_distance<typename Traits::FT> greatest_distance_of_block(const Batch_fu
 
 namespace equiaffine {
 
-/// The greatest |f| / |grad f| over the points: to first order their distance from the zero set of f. Points where f is
-/// undefined do not count, nor do those whose `status`, if it is given, is UNCONVERGED; the result is NaN if no point
-/// counts, or if Newton's method does not lead from one of them to a zero, as beside a pole. Takes one evaluation with
-/// gradient per point, and one without. CGAL::Sequential_tag and CGAL::Parallel_tag give the same result.
+/// The maximum of |f| / |grad f| over the points, which is to first order their maximum distance from the zero set of
+/// f. Points at which f is undefined are ignored, and points whose `status`, if given, is UNCONVERGED. The result is
+/// NaN if no point is left, or if Newton's method does not lead from one of them to a zero, for example near a pole.
+/// Takes one evaluation with gradient and one without per point. CGAL::Sequential_tag and CGAL::Parallel_tag give the
+/// same result.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>
 typename Traits::FT max_distance_to_surface(const Traits& traits, std::span<const typename Traits::Point_3> points,
                                             std::span<const Point_status> status = {}) {
   check_argument(status.empty() || status.size() == points.size(),
-                 "there are not as many statuses as points: give one for each point, or none");
+                 "the number of statuses differs from the number of points: give one for each point, or none");
   using FT = typename Traits::FT;
   using std::abs;
   using std::sqrt;
@@ -122,7 +123,7 @@ typename Traits::FT max_distance_to_surface(const Traits& traits, std::span<cons
   const FT resolvable = sqrt(std::numeric_limits<FT>::epsilon()) * coordinate;
   internal::Greatest_distance<FT> result;
   std::mutex mutex;
-  // The end of a step may be in the next cell.
+  // The margin of 1 is needed because the end of a step may be in the next cell.
   for_each_point_block<ConcurrencyTag>(
       Batch(traits), points, block, 1, [&](const Batch& local, std::span<const std::size_t> numbers) {
         std::vector<typename Traits::Point_3> points_of_block;

@@ -39,7 +39,7 @@ namespace equiaffine {
 template <class Kernel>
 struct Parabolic_curves_3 {
   std::vector<Polyline_3<Kernel>> polylines; ///< the curves
-  std::size_t unconverged_points = 0; ///< points left where linear interpolation along an edge of the mesh puts them
+  std::size_t unconverged_points = 0; ///< the number of points left at linear interpolation along an edge of the mesh
 };
 
 } // namespace equiaffine
@@ -47,7 +47,7 @@ struct Parabolic_curves_3 {
 namespace equiaffine::internal {
 
 /// K_e |grad f|^4, a polynomial in the derivatives of f of order 1 and 2 (Goldman: Curvature formulas for implicit
-/// curves and surfaces, 2005), with its derivatives up to order 1 or 2. \pre the jet is finite.
+/// curves and surfaces, 2005), with its derivatives up to order 1 or 2. \pre the jet is finite
 template <int Order = 1, class FT>
 requires(Order >= 1 && Order <= 2) Jet_3<FT, Order> parabolic_function(const Jet_3<FT>& f) {
   const auto derivative = [&](int i, int j, int k) {
@@ -66,9 +66,9 @@ requires(Order >= 1 && Order <= 2) Jet_3<FT, Order> parabolic_function(const Jet
          FT(2) * ((xz * xy - xx * yz) * y * z + (xy * yz - yy * xz) * x * z + (yz * xz - zz * xy) * x * y);
 }
 
-/// Finds a point where two branches of the curve f = d = 0 cross, not further than `reach` from `start`. It is a saddle
-/// of d on f = 0, found by Newton's method for f = 0, grad d = m grad f. `jets(p)` is the pair of the jets of f and d,
-/// of order 2 at least.
+/// Finds a point at most `reach` from `start` where two branches of the curve f = d = 0 cross. It is a saddle of d on
+/// f = 0, found by Newton's method for f = 0, grad d = m grad f. `jets(p)` returns the jets of f and d, of order at
+/// least 2.
 template <class Point_3, class Vector_3, class Jets>
 std::optional<Point_3> crossing_near(const Point_3& start, double reach, const Jets& jets) {
   constexpr int maximal_iterations = 20;
@@ -89,15 +89,15 @@ std::optional<Point_3> crossing_near(const Point_3& start, double reach, const J
     const Eigen::Vector4d step = -jacobian.fullPivLu().solve(defect);
     p = p + Vector_3(step[0], step[1], step[2]);
     *multiplier += step[3];
-    if (!(CGAL::to_double(CGAL::squared_distance(p, start)) <= reach * reach)) return std::nullopt; // also NaN
+    if (!(CGAL::to_double(CGAL::squared_distance(p, start)) <= reach * reach)) return std::nullopt; // also for NaN
     const double length = step.head<3>().norm();
     if (length > 1e-9 * reach) continue;
-    // If the gradient of f is replaced by the unit normal, minus the determinant is that of the Hessian of d within the
+    // With the gradient of f replaced by the unit normal, minus the determinant is that of the Hessian of d in the
     // tangent plane, which is negative at a saddle.
     jacobian.topRightCorner<3, 1>() = f1 / norm;
     jacobian.bottomLeftCorner<1, 3>() = f1.transpose() / norm;
     const double scale = hessian.norm(), determinant = -jacobian.determinant();
-    // Both are relative: to the square of the Hessian, and to what d is at the distance `reach`.
+    // Both are relative: to the square of the Hessian, and to the size of d at the distance `reach`.
     constexpr double least_determinant = 1e-4, negligible_value = 1e-6;
     if (!(determinant < -least_determinant * scale * scale)) return std::nullopt;
     if (!(std::abs(CGAL::to_double(d.value())) <= negligible_value * scale * reach * reach)) return std::nullopt;
@@ -106,8 +106,8 @@ std::optional<Point_3> crossing_near(const Point_3& start, double reach, const J
   return std::nullopt;
 }
 
-/// Returns the solution of f = 0, d = 0 that Newton's method with steps of least length finds from p, or nothing if a
-/// step leads too far away.
+/// Returns the solution of f = 0, d = 0 to which Newton's method with minimum-norm steps converges from `start`, or
+/// nothing if a step leads too far away.
 template <ImplicitFunctionTraits_3 Traits>
 std::optional<typename Traits::Point_3> project_to_parabolic_curve(const Traits& traits,
                                                                    const typename Traits::Point_3& start,
@@ -118,7 +118,7 @@ std::optional<typename Traits::Point_3> project_to_parabolic_curve(const Traits&
   for (int n = 0; n < maximal_iterations; ++n) {
     const auto jet = traits.taylor(p);
     const auto step = step_to_curve<typename Traits::Vector_3>(jet, parabolic_function(jet));
-    if (!((p + step - start).squared_length() <= squared_reach)) return std::nullopt; // also NaN
+    if (!((p + step - start).squared_length() <= squared_reach)) return std::nullopt; // also for NaN
     p = p + step;
     const FT rounding = FT(8) * std::numeric_limits<FT>::epsilon();
     if (step.squared_length() <= rounding * rounding * (p - CGAL::ORIGIN).squared_length()) return p;
@@ -126,7 +126,7 @@ std::optional<typename Traits::Point_3> project_to_parabolic_curve(const Traits&
   return std::nullopt;
 }
 
-/// Crosses the edges of a mesh with the curves, puts the points on them, and links them to polylines.
+/// Intersects the edges of a mesh with the curves, moves the points onto the curves, and links them to polylines.
 template <class ConcurrencyTag, class Traits>
 class Parabolic_curve_finder_3 {
   using FT = typename Traits::FT;
@@ -163,8 +163,8 @@ public:
 private:
   using Segment = std::array<Edge, 2>;
 
-  /// Computes the value at vertex v, which is negligible if rounding may have made it out of its terms, products of two
-  /// first and two second derivatives. On a cone or a cylinder all values are.
+  /// Computes the value at vertex v. It is negligible if it may be due to rounding of its terms, which are products
+  /// of two first and two second derivatives. On a cone or a cylinder all values are negligible.
   void evaluate(std::size_t v) {
     constexpr double negligible = 1e-12;
     const auto jet = traits_.taylor(mesh_.points[v]);
@@ -173,7 +173,7 @@ private:
     is_negligible_[v] = std::abs(CGAL::to_double(values_[v])) <= negligible * scale * scale;
   }
 
-  /// Replaces every negligible value by one beside the vertex, a little way into a triangle. Where the curvature has a
+  /// Replaces every negligible value by one near the vertex, slightly inside a triangle. If the curvature has a
   /// double zero at the vertex, it has one sign around it, and no curve passes.
   void look_beside_negligible_values() {
     constexpr double fraction = 1e-3; // of the way to the center of the triangle
@@ -191,8 +191,8 @@ private:
       }
   }
 
-  /// A segment of a curve lies in every triangle with different signs at its vertices, not all of which are negligible,
-  /// between two of its edges.
+  /// Returns a curve segment between two edges of each triangle with different signs at its vertices, unless all
+  /// three values are negligible.
   std::vector<Segment> find_segments() const {
     std::vector<Segment> segments;
     for (const auto& t : mesh_.triangles) {
@@ -209,7 +209,7 @@ private:
     return segments;
   }
 
-  /// Lists the edges of all segments, and with each edge the ones to which segments lead from it.
+  /// Collects the edges of all segments and, for each edge, the edges to which segments lead.
   void connect_edges(const std::vector<Segment>& segments) {
     for (const auto& [first, second] : segments) {
       edges_.push_back(first);
@@ -228,8 +228,8 @@ private:
     }
   }
 
-  /// Moves the point of an edge from its linear position onto the curve, by about the length of the edge at most.
-  /// Returns false if it stays there.
+  /// Moves the point of an edge from its linear position onto the curve, by at most about the length of the edge.
+  /// Returns false if it stays.
   bool place_point(std::size_t e) {
     const auto [a, b] = edges_[e];
     const Vector_3 edge = mesh_.points[b] - mesh_.points[a];
@@ -240,9 +240,9 @@ private:
     return p.has_value();
   }
 
-  /// Returns the point of the surface at which the function changes its sign on the way from vertex v along an edge, or
-  /// nothing if the surface is not found beside the edge. Newton's method fails where the gradient of the function
-  /// vanishes on the curve, as where the curvature has a double zero across it.
+  /// Returns the point of the surface at which the parabolic function changes its sign along an edge from vertex v,
+  /// or nothing if the surface is not found near the edge. This is needed where the gradient of the function vanishes
+  /// on the curve and Newton's method fails, for example at a double zero of the curvature across it.
   std::optional<Point_3> bisect(Index v, const Vector_3& edge) const {
     constexpr int halvings = std::numeric_limits<FT>::digits;
     const FT length(std::sqrt(CGAL::to_double(edge.squared_length())));
@@ -259,8 +259,8 @@ private:
     return middle;
   }
 
-  /// Appends the points where curves cross to the others. Returns the squared radius of the neighborhood of each, in
-  /// which the mesh does not tell which point is on which branch.
+  /// Appends the points where curves cross. Returns the squared radius of the neighborhood of each in which the mesh
+  /// does not resolve the branches.
   std::vector<FT> find_crossings() {
     const auto jets = [this](const Point_3& p) {
       const auto jet = traits_.taylor(p);
@@ -282,7 +282,7 @@ private:
     return squared_radii;
   }
 
-  /// Makes the crossings neighbors in place of the points near them.
+  /// Replaces the points near crossings by the crossings as neighbors.
   void join_at_crossings(const std::vector<FT>& squared_radii) {
     is_at_crossing_.assign(edges_.size(), false);
     std::vector<Index> replacement(points_.size());
@@ -319,7 +319,7 @@ private:
     return polylines;
   }
 
-  /// The curve that goes on from `first`, away from the neighbor `before`, which may be a crossing or none.
+  /// The curve from `first` on, away from the neighbor `before`, which may be a crossing or none.
   Polyline_3<Kernel> trace_polyline(Index first, Index before, std::vector<bool>& is_used) const {
     Polyline_3<Kernel> line;
     if (is_crossing(before)) line.points.push_back(points_[before]);
@@ -339,11 +339,11 @@ private:
   const Indexed_triangle_mesh_3<Kernel>& mesh_;
   const Traits& traits_;
   std::vector<FT> values_;                      // of the parabolic function at the vertices of the mesh
-  std::vector<std::uint8_t> is_negligible_;     // whether these values may be mere rounding
-  std::vector<Edge> edges_;                     // edges of the mesh that curves cross, ascending
-  std::vector<std::array<Index, 2>> neighbors_; // for each edge the indices of points along the curve
-  std::vector<bool> is_at_crossing_;            // whether a crossing stands for the point of the edge
-  std::vector<Point_3> points_;                 // a point for each edge, then crossings
+  std::vector<std::uint8_t> is_negligible_;     // whether these values may be due to rounding
+  std::vector<Edge> edges_;                     // edges of the mesh that curves cross, in ascending order
+  std::vector<std::array<Index, 2>> neighbors_; // for each edge, the indices of neighbors along the curve
+  std::vector<bool> is_at_crossing_;            // whether a crossing replaces the point of the edge
+  std::vector<Point_3> points_;                 // one per edge, then the crossings
 };
 
 } // namespace equiaffine::internal
@@ -351,22 +351,23 @@ private:
 namespace equiaffine {
 
 /// Finds the parabolic curves of the zero set of f. The polylines have a point for every edge of `mesh` at whose ends
-/// K_e has different signs, and end where they cross. `mesh` is the mesh that a sampler made of the zero set. Its
-/// resolution decides which curves are found, but does not affect the accuracy of their points, which lie on f = 0 and
-/// K_e = 0 up to rounding. Curves where K_e touches zero without a change of sign are not found. CGAL::Sequential_tag
-/// and CGAL::Parallel_tag give the same curves, bit for bit.
+/// K_e has different signs, and end where they cross. `mesh` is a mesh of the zero set computed by a sampler. Its
+/// resolution determines which curves are found but not the accuracy of their points, which lie on f = 0 and K_e = 0
+/// up to rounding. Curves where K_e touches zero without changing sign are not found. CGAL::Sequential_tag and
+/// CGAL::Parallel_tag give the same curves, bit for bit.
 template <class ConcurrencyTag = CGAL::Sequential_tag, ImplicitFunctionTraits_3 Traits>
 Parabolic_curves_3<Kernel_of<Traits>> parabolic_curves(const Indexed_triangle_mesh_3<Kernel_of<Traits>>& mesh,
                                                        const Traits& traits) {
   return internal::Parabolic_curve_finder_3<ConcurrencyTag, Traits>(mesh, traits).find();
 }
 
-/// The same for a mesh of CGAL of any kernel whose coordinates are doubles. Faces are cut into triangles.
+/// The same for a mesh of CGAL of any kernel with double coordinates. Faces are triangulated.
 ///
 /// | named parameter | type | default | meaning |
 /// |---|---|---|---|
 /// | `vertex_point_map` | property map | the mesh's own | from vertices to points |
-/// | `geom_traits`, `verbose` | as in CGAL |  | nothing depends on them |
+///
+/// `geom_traits` and `verbose` are accepted for compatibility with CGAL and ignored.
 template <class ConcurrencyTag = CGAL::Sequential_tag, Face_graph Graph, ImplicitFunctionTraits_3 Traits,
           internal::Parameter_chain... Parameters>
 Parabolic_curves_3<Kernel_of<Traits>> parabolic_curves(const Graph& mesh, const Traits& traits,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Puts points on the zero set of a function, along its gradient.
+// Projects points onto the zero set of a function along its gradient.
 #ifndef EQUIAFFINE_SURFACE_PROJECT_TO_SURFACE_H
 #define EQUIAFFINE_SURFACE_PROJECT_TO_SURFACE_H
 
@@ -15,8 +15,8 @@
 
 namespace equiaffine {
 
-/// |f| / |grad f|: to first order the distance from a point to the zero set. It is 0 where f is 0, infinite where only
-/// the gradient is 0, and NaN where f is undefined.
+/// |f| / |grad f|, which is to first order the distance from a point to the zero set. It is 0 if f is 0, infinite if
+/// only the gradient is 0, and NaN if f is undefined.
 template <class FT>
 FT distance_estimate(const Jet_3<FT, 1>& jet) {
   using std::abs;
@@ -29,9 +29,9 @@ FT distance_estimate(const Jet_3<FT, 1>& jet) {
   return abs(c[0]) / scale / sqrt(x * x + y * y + z * z);
 }
 
-/// Finds the zero of f nearest to p along the line through p in the direction of the gradient, at most
-/// `maximal_distance` away. `jet` is the expansion of f at p, which does not count as an evaluation. Looks for a change
-/// of sign at twice the estimated distance, then twice as far each time.
+/// Finds the zero of f nearest to p on the line through p along the gradient, at most `maximal_distance` away. `jet`
+/// is the expansion of f at p, which does not count as an evaluation. Searches for a sign change up to twice the
+/// estimated distance, then doubles the distance each time.
 template <ImplicitFunctionTraits_3 Traits>
 Surface_point_3<Kernel_of<Traits>> project_to_surface(const Traits& traits, const typename Traits::Point_3& p,
                                                       const typename Traits::FT& maximal_distance,
@@ -43,7 +43,7 @@ Surface_point_3<Kernel_of<Traits>> project_to_surface(const Traits& traits, cons
   const FT magnitude = std::max({abs(p.x()), abs(p.y()), abs(p.z()), maximal_distance});
   const FT rounding = FT(4) * std::numeric_limits<FT>::epsilon() * magnitude;
   const FT distance = distance_estimate(jet);
-  if (distance <= rounding) return {p, true, 0}; // no point of the line is nearer, and signs there are noise
+  if (distance <= rounding) return {p, true, 0}; // no point of the line is nearer: signs there are noise
   const typename Traits::Vector_3 gradient(c[1], c[2], c[3]);
   const FT norm = sqrt(gradient.squared_length());
   const bool is_finite = c[0] - c[0] == FT(0);
@@ -56,7 +56,7 @@ Surface_point_3<Kernel_of<Traits>> project_to_surface(const Traits& traits, cons
     const auto end = p + std::min(reach, maximal_distance) * towards_surface;
     const FT value = traits.value(end);
     ++evaluations;
-    if (!(value == value)) break; // f is undefined there
+    if (!(value == value)) break; // f is undefined
     if (!is_sign_change(c[0], value)) continue;
     auto result = intersect_segment(traits, p, end, c[0], value);
     result.evaluations += evaluations;
@@ -65,7 +65,7 @@ Surface_point_3<Kernel_of<Traits>> project_to_surface(const Traits& traits, cons
   return {p, false, evaluations};
 }
 
-/// Does the same, but computes the expansion at p, which counts as an evaluation.
+/// The same, but computes the expansion at p, which counts as an evaluation.
 template <ImplicitFunctionTraits_3 Traits>
 Surface_point_3<Kernel_of<Traits>> project_to_surface(const Traits& traits, const typename Traits::Point_3& p,
                                                       const typename Traits::FT& maximal_distance) {

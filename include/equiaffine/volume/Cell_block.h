@@ -9,11 +9,11 @@
 
 namespace equiaffine {
 
-/// The cells of a lattice from `first` up to, but without, `end` along each axis. Cell (i, j, k) has the nodes
+/// The cells of a lattice from `first` up to, but not including, `end` along each axis. Cell (i, j, k) has the nodes
 /// (i, j, k) to (i + 1, j + 1, k + 1).
 struct Cell_block {
   std::array<std::size_t, 3> first; ///< the first cell along each axis
-  std::array<std::size_t, 3> end;   ///< the cell behind the last one along each axis
+  std::array<std::size_t, 3> end;   ///< one past the last cell along each axis
 
   /// Whether the block contains a cell.
   bool contains(const std::array<std::size_t, 3>& cell) const {
@@ -25,12 +25,12 @@ struct Cell_block {
   bool operator==(const Cell_block&) const = default;
 };
 
-/// All cells of a lattice with so many nodes.
+/// All cells of a lattice with the given number of nodes along each axis.
 inline Cell_block cells_of(const std::array<std::size_t, 3>& nodes) {
   return {{0, 0, 0}, {nodes[0] - 1, nodes[1] - 1, nodes[2] - 1}};
 }
 
-/// The cells that a block has in common with `all`, or the nearest ones of these.
+/// The intersection of a block with `all`, or the nearest cells of `all` if it is empty.
 inline Cell_block clamped(const Cell_block& block, const Cell_block& all) {
   Cell_block cells;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -40,7 +40,7 @@ inline Cell_block clamped(const Cell_block& block, const Cell_block& all) {
   return cells;
 }
 
-/// The cells of a block with those around it, as far as `all` has them.
+/// A block enlarged by `margin` cells on each side, clipped to `all`.
 inline Cell_block widened(const Cell_block& block, std::size_t margin, const Cell_block& all) {
   Cell_block cells = block;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -54,7 +54,7 @@ inline Cell_block widened(const Cell_block& block, std::size_t margin, const Cel
 
 namespace equiaffine::internal {
 
-/// The numbers of a line from `first` up to, but without, `end`.
+/// The indices of a line from `first` up to, but not including, `end`.
 struct Line_part {
   std::size_t first, end;
   std::size_t size() const { return end - first; }
@@ -65,8 +65,8 @@ inline Line_part nodes_of(const Cell_block& cells, std::size_t axis) {
   return {cells.first[axis], cells.end[axis] + 1};
 }
 
-/// The nodes that belong to a block of cells along an axis, and to no other block: those where its cells begin, and the
-/// last one of the lattice.
+/// The nodes along an axis that belong to a block of cells and to no other block: the lower nodes of its cells, and
+/// the last node of the lattice.
 inline Line_part own_nodes_of(const Cell_block& cells, std::size_t axis, std::size_t nodes_of_lattice) {
   const std::size_t end = cells.end[axis];
   return {cells.first[axis], end + 1 == nodes_of_lattice ? end + 1 : end};

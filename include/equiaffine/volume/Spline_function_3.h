@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The spline through the samples of a volume as a function, and which samples its values in a block of cells need.
+// The spline that approximates the samples of a volume, as a function; also determines the samples on which its values
+// in a block of cells depend.
 #ifndef EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 #define EQUIAFFINE_VOLUME_SPLINE_FUNCTION_3_H
 
@@ -34,8 +35,8 @@
 
 namespace equiaffine::internal {
 
-/// Finds the cells of a lattice that contain a point or meet a box. All points of the lattice are in the support, those
-/// at its border even if rounding moves them out.
+/// Finds the cells of a lattice that contain a point or meet a box. The support contains all points of the lattice,
+/// including those on its border that rounding moves outside.
 template <class Kernel>
 class Spline_support_3 {
 public:
@@ -44,16 +45,16 @@ public:
   using Lattice = Lattice_3<Kernel>;
   using Matrix = std::array<std::array<FT, 3>, 3>;
 
-  /// A point of the support: its cell, and its place in the cell, in [0, 1] up to rounding.
+  /// A point of the support: its cell, and its position in the cell, in [0, 1] up to rounding.
   struct Place {
     std::array<std::size_t, 3> cell;
     std::array<FT, 3> offset;
   };
 
-  /// The part of a box that is in the support.
+  /// The part of a box that lies in the support.
   struct Common_box {
     Bspline_box<FT> box;
-    bool is_whole_box = true; ///< if false, a part of the box is outside of the support
+    bool is_whole_box = true; ///< false if a part of the box lies outside the support
   };
 
   explicit Spline_support_3(const Lattice& lattice) : lattice_(lattice), to_lattice_(inverse_matrix(lattice)) {
@@ -65,10 +66,10 @@ public:
   /// The linear part of the map from space to lattice coordinates.
   const Matrix& to_lattice() const { return to_lattice_; }
 
-  /// The greatest change of the lattice coordinates of a point of the lattice by rounding.
+  /// Bounds on the rounding errors of the lattice coordinates of a point of the lattice.
   const std::array<FT, 3>& slack() const { return slack_; }
 
-  /// The place of a point, if it is in the support.
+  /// The cell and the position of a point in it, if it lies in the support.
   std::optional<Place> locate(const Point_3& p) const {
     Place place;
     const auto d = p - lattice_.origin();
@@ -81,8 +82,8 @@ public:
     return place;
   }
 
-  /// The box of the lattice around what a box and the support have in common, if they meet. A side that only rounding
-  /// separates from a node is taken to be there.
+  /// The bounding box, in lattice coordinates, of the intersection of a box with the support, if they meet. A side
+  /// that differs from a node only by rounding is moved to the node.
   std::optional<Common_box> locate(const CGAL::Bbox_3& box) const {
     Common_box common;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -123,7 +124,7 @@ private:
     return 8 * std::numeric_limits<FT>::epsilon() * sum;
   }
 
-  /// The least and the greatest lattice coordinate a of the points of a box.
+  /// The minimum and the maximum of lattice coordinate a over a box.
   std::array<FT, 2> sides_in_lattice(const CGAL::Bbox_3& box, std::size_t a) const {
     constexpr FT infinity = std::numeric_limits<FT>::infinity();
     std::array<FT, 2> sides{};
@@ -133,11 +134,11 @@ private:
       sides[0] += std::min(p, q);
       sides[1] += std::max(p, q);
     }
-    if (!(sides[0] <= sides[1])) return {-infinity, infinity}; // 0 times infinity has made a NaN
+    if (!(sides[0] <= sides[1])) return {-infinity, infinity}; // NaN from 0 times infinity
     return sides;
   }
 
-  /// Whether a lattice coordinate is in the support; NaN is not.
+  /// Whether a lattice coordinate lies in the support; false for NaN.
   bool is_inside(FT u, std::size_t a) const { return u >= -slack_[a] && u <= FT(lattice_.size()[a] - 1) + slack_[a]; }
 
   std::size_t cell(FT u, std::size_t a) const {
@@ -153,25 +154,26 @@ private:
 
 namespace equiaffine {
 
-/// The tensor product B-spline of degree 5, 7 or 9 through the samples of a volume, as a function of the points of
-/// space: value, and Taylor expansion to order 4, at any point.
+/// The tensor-product B-spline of degree 5, 7, or 9 that approximates the samples of a volume, as a function in space
+/// with its value and its Taylor expansion to order 4 at any point.
 ///
-/// The support is the whole lattice with its border. There the scheme keeps its order because it extends the samples by
-/// polynomials of degree n, that of the spline, or of degree n + 2 if the samples are smooth enough, or by constants if
-/// they are steps, as those of a mask (Volume_survey.h). All numbers are NaN outside of the support, at every point
-/// whose samples include one that is not finite (all samples take part in interpolation), and everywhere if an axis has
-/// no more than `degree` nodes. Of a part of a volume (Volume_view_3::part) a cell has a value if all samples that it
-/// depends on are known.
+/// The support is the whole lattice including its border. There the scheme keeps its order because it extends the
+/// samples by polynomials of degree n, the degree of the spline, or of degree n + 2 if these predict the outermost
+/// samples better; steps, for example of a mask, are extended by constants (Volume_survey.h). All numbers are NaN
+/// outside the support, at every point that depends on a sample that is not finite (with interpolation, all points
+/// depend on all samples), and everywhere if an axis has at most `degree` nodes. In a part of a volume
+/// (Volume_view_3::part), a cell has values if all samples on which it depends are known.
 ///
-/// Derivatives are computed in lattice coordinates and mapped to space by the inverse of the lattice's matrix, so that
-/// the lattice may have any rotation, shear and handedness, and steps from 1e-70 to 1e70. The rounding error of a k-th
-/// derivative is some 1e-15 max|f| / spacing^k. In the cells at a face of the lattice, quasi-interpolation multiplies
-/// it by a factor of 30 to 70, along edges by the square of that factor, and in corners by its cube. See Unser,
-/// Aldroubi, Eden: B-spline signal processing, 1993; de Boor: Quasiinterpolants, 1990.
+/// Derivatives are computed in lattice coordinates and mapped to space by the inverse matrix of the lattice. The
+/// lattice may hence have any rotation, shear, and handedness, and steps from 1e-70 to 1e70. The rounding error of a
+/// k-th derivative is about 1e-15 max|f| / spacing^k. In the cells at a face of the lattice, quasi-interpolation
+/// multiplies it by a factor of 30 to 70, along edges by the square of that factor, and in corners by its cube. See
+/// Unser, Aldroubi, Eden: B-spline signal processing, 1993; de Boor: Quasiinterpolants, 1990.
 ///
-/// The function keeps the samples, as they are. It computes its coefficients, one number per node and per padding node,
-/// when it is first evaluated, or at once for interpolation; restricted_to_cells() makes functions that have only those
-/// of a block of cells. Copies share samples and coefficients. Const members may be called from many threads at once.
+/// The function keeps the samples without converting them. It computes its coefficients, one number per node and per
+/// padding node, at the first evaluation, or on construction for interpolation. restricted_to_cells() returns
+/// functions with the coefficients of a block of cells only. Copies share samples and coefficients. Const members are
+/// thread-safe.
 template <class Kernel>
 class Spline_function_3 {
 public:
@@ -181,20 +183,21 @@ public:
   using Matrix = typename Linear_substitution_3<FT>::Matrix; ///< three rows of three numbers
   static_assert(std::is_floating_point_v<FT>);
 
-  /// Fourth derivatives for other steps, and what is made of them, may leave the range of double precision.
+  /// With shorter or longer steps, fourth derivatives and quantities computed from them may overflow or underflow.
   static constexpr double shortest_step = 1e-70,
                           longest_step = 1e70; ///< see shortest_step
 
-  /// Without a smoothing in the options decide_smoothing() finds it. The coefficients do not depend on the number of
-  /// threads that compute them. \throw Input_error for bad options, and std::invalid_argument unless steps of the
-  /// lattice are no shorter or longer than they may be
+  /// If `options.smoothing` is not set, decide_smoothing() chooses it. The coefficients do not depend on the number of
+  /// threads. \throw Input_error for bad options, and std::invalid_argument unless the lengths of the steps are between
+  /// `shortest_step` and `longest_step`
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   explicit Spline_function_3(const Volume_view_3<Kernel>& volume, const Volume_options& options = {},
                              ConcurrencyTag tag = {})
       : Spline_function_3(volume, internal::with_smoothing<ConcurrencyTag>(volume, options),
                           internal::border_votes(volume, options, volume.cells()), tag) {}
 
-  /// The same for samples that are smoothed already, and the survey of the volume, of which they may be a part.
+  /// The same for samples that are already smoothed. `survey` must be that of the whole volume, even if `smooth` is a
+  /// part of it.
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Spline_function_3(const Volume_view_3<Kernel>& smooth, const Volume_options& options, const Volume_survey& survey,
                     ConcurrencyTag tag = {})
@@ -207,10 +210,10 @@ public:
   /// The degree of the polynomials that extend the samples beyond the border.
   int border_degree() const { return fit_.border_degree; }
 
-  /// The same function, bit for bit, with the coefficients of a block of cells only, which are computed at once and in
-  /// this thread. It may be evaluated elsewhere, too, which costs some 10 microseconds a point. If the coefficients of
-  /// all cells exist already, or if the scheme is interpolation, they are used. Of a part of a volume, those cells of
-  /// the block count that have a value. \pre the block has cells, and the lattice all of them
+  /// The same function, bit for bit, with only the coefficients of a block of cells, which are computed now in this
+  /// thread. Evaluating it outside the block is possible, but takes about 10 microseconds per point. Uses the
+  /// coefficients of all cells if they exist already or if the scheme is interpolation. In a part of a volume, the
+  /// block is clamped to the cells that have values. \pre the block is not empty and lies in the lattice
   Spline_function_3 restricted_to_cells(const Cell_block& cells) const {
     for (std::size_t a = 0; a < 3; ++a)
       CGAL_precondition(cells.first[a] < cells.end[a] && cells.end[a] < lattice().size()[a]);
@@ -232,7 +235,7 @@ public:
   /// The linear part of the map from space to lattice coordinates.
   const Matrix& to_lattice() const { return support_.to_lattice(); }
 
-  /// Turns an expansion in lattice coordinates into one in those of space.
+  /// Maps an expansion in lattice coordinates to the coordinates of space.
   Jet_3<FT> to_space(const Jet_3<FT>& jet) const { return substitution_(jet); }
 
   /// The expansion at p in the coordinates of space, to total order `Order` <= 5; lower orders cost less.
@@ -251,15 +254,15 @@ public:
     });
   }
 
-  /// Returns the greatest magnitude of the coefficients of a cell, about that of the samples around it.
+  /// Returns the maximum magnitude of the coefficients of a cell, which is about that of the samples around it.
   FT greatest_coefficient(const std::array<std::size_t, 3>& cell) const {
     if (!source_ || !source_->cells().contains(cell)) return std::numeric_limits<FT>::quiet_NaN();
     return with_coefficients_of(cell, [&](const Coefficients& coefficients) { return coefficients.greatest(cell); });
   }
 
-  /// Computes an interval that contains the values at all points of the box, also as value() rounds them, from the
-  /// coefficients that count there. It is the whole line if a point of the box has no value. Takes time proportional to
-  /// the number of cells that the box meets.
+  /// Computes an interval that contains the values at all points of the box, including the rounding of value(), from
+  /// the coefficients that are relevant there. Returns the whole line if a point of the box has no value. The time is
+  /// proportional to the number of cells that meet the box.
   Interval bounds(const CGAL::Bbox_3& box) const {
     const auto common = locate(box);
     if (!common || !common->is_whole_box) return Interval::whole();
@@ -268,10 +271,11 @@ public:
     return of_box.has_nan(all.data(), common->box) ? Interval::whole() : of_box.value(all.data(), common->box);
   }
 
-  /// Computes intervals that contain the values and the first derivatives in the same sense. In boxes of up to 9 cells
-  /// along each axis they are nearly the ranges: the excess shrinks with the square of the side of the box, down to
-  /// 2^-12 of a cell. If a point of the box has no value, the bounds of the derivatives are the whole line, and the
-  /// bounds of the value are those of the points that have one; they are infinity if there are none.
+  /// Computes intervals that contain the values and the first derivatives, including rounding. In boxes of up to 9
+  /// cells along each axis they are close to the exact ranges: the excess is proportional to the square of the side of
+  /// the box, for sides down to 2^-12 of a cell. If a point of the box has no value, the bounds of the derivatives are
+  /// the whole line, and the bounds of the value are those of the points with a value, or the interval [infinity,
+  /// infinity] if there are none.
   Jet_3<Interval, 1> first_order_bounds(const CGAL::Bbox_3& box) const {
     const auto common = locate(box);
     std::array<Interval, 4> bounds;
@@ -300,12 +304,12 @@ private:
     for (const auto& step : lattice().steps())
       check_argument(shortest_step * shortest_step <= step.squared_length() &&
                          step.squared_length() <= longest_step * longest_step,
-                     "a step of the lattice of a spline is not from 1e-70 to 1e70 long: choose another unit");
+                     "a lattice step of a spline is shorter than 1e-70 or longer than 1e70: choose another unit");
     for (const std::size_t nodes : lattice().size())
       if (nodes <= std::size_t(degree())) return;
     source_ = std::make_shared<const internal::Coefficient_source<Kernel>>(
         smooth_volume<ConcurrencyTag>(volume, FT(*options.smoothing), votes), fit_, tag);
-    if (scheme() == Spline_scheme::INTERPOLATION) source_->all(); // no part of them can be computed alone
+    if (scheme() == Spline_scheme::INTERPOLATION) source_->all(); // they cannot be computed in parts
   }
 
   using Support = internal::Spline_support_3<Kernel>;
@@ -315,7 +319,7 @@ private:
     return {degree(), coefficients.size(), support_.slack()};
   }
 
-  /// Returns f(coefficients) for coefficients that have those of a cell of the source.
+  /// Returns f(coefficients) for coefficients that include those of the given cell of the source.
   template <class F>
   auto with_coefficients_of(const std::array<std::size_t, 3>& cell, const F& f) const {
     if (!part_) return f(source_->all());
@@ -330,7 +334,7 @@ private:
     return support_.locate(p);
   }
 
-  /// The part of a box where there are values, in the cells of the source.
+  /// The part of a box that has values, in the cells of the source.
   std::optional<typename Support::Common_box> locate(const CGAL::Bbox_3& box) const {
     if (!source_) return std::nullopt;
     auto common = support_.locate(box);
@@ -339,7 +343,7 @@ private:
       if (common->box.first[a] < first || common->box.first[a] + common->box.cells[a] > end) return std::nullopt;
       common->box.first[a] -= first;
     }
-    if (common && scheme() == Spline_scheme::PAPER) { // its values are means over the corners of a cell
+    if (common && scheme() == Spline_scheme::PAPER) { // values are interpolated from all corners of a cell
       common->box.begin = {0, 0, 0};
       common->box.end = {1, 1, 1};
     }
@@ -351,7 +355,7 @@ private:
   Linear_substitution_3<FT, internal::maximal_order> substitution_;
   std::shared_ptr<const internal::Coefficient_source<Kernel>>
       source_;                               // null if the lattice has too few nodes for a spline
-  std::shared_ptr<const Coefficients> part_; // of a block of cells, if the function is restricted
+  std::shared_ptr<const Coefficients> part_; // those of a block of cells, if the function is restricted
 };
 
 /// The kernel is that of the volume.
@@ -362,9 +366,10 @@ Spline_function_3(const Volume_3<Kernel>&, const Volume_options& = {}) -> Spline
 template <class Kernel, class ConcurrencyTag>
 Spline_function_3(const Volume_3<Kernel>&, const Volume_options&, ConcurrencyTag) -> Spline_function_3<Kernel>;
 
-/// The cells at whose nodes samples must be known so that a spline through them has its values in all cells of a block.
-/// `nodes` are the numbers of nodes of the lattice. Beside the border of the lattice these are more than elsewhere,
-/// since there the samples are extended. Without a smoothing the greatest one that may be chosen counts.
+/// Returns the cells at whose nodes the samples must be known so that a spline through them has values in a block of
+/// cells. `nodes` is the number of nodes of the lattice along each axis. Near the border of the lattice more cells
+/// are needed, because the samples are extended there. Without a smoothing in the options, the largest scale that may
+/// be chosen is assumed.
 /// \throw Input_error for bad options, and for interpolation, which needs all samples
 inline Cell_block cells_to_know(const Cell_block& cells, const std::array<std::size_t, 3>& nodes,
                                 const Volume_options& options) {
@@ -382,7 +387,7 @@ inline Cell_block cells_to_know(const Cell_block& cells, const std::array<std::s
       for (std::size_t a = 0; a < 3; ++a) {
         if (nodes[a] <= degree) continue; // there is no spline
         internal::Line_part used = line.samples_of({cells.first[a], cells.end[a] + degree}, nodes[a]);
-        // The votes on the border degree look at so many samples at an end of a line.
+        // The choice of the border degree uses this number of samples at each end of a line.
         const auto voting = std::min(nodes[a], std::size_t(fit.border_degree) + 2);
         if (cells.first[a] == 0) used.end = std::max(used.end, voting);
         if (cells.end[a] + 1 == nodes[a]) used.first = std::min(used.first, nodes[a] - voting);

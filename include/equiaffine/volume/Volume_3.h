@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sampled functions: a volume with its values, a view of samples that lie elsewhere, and a volume in parts.
+// Sampled functions: a volume that owns its values, a view of samples stored elsewhere, and a volume in parts.
 #ifndef EQUIAFFINE_VOLUME_VOLUME_3_H
 #define EQUIAFFINE_VOLUME_VOLUME_3_H
 
@@ -38,15 +38,14 @@ struct Volume_3 {
   }
 };
 
-/// A volume whose samples stay where they are, in the type of numbers that they have: integers and floating-point
-/// numbers of any size, with any distance between neighbors. They are converted when they are asked for, a line or a
-/// block at a time. A NaN marks a node without a value.
+/// A view of samples in their own number type (integers or floating-point numbers of any size) and with any strides.
+/// Samples are converted on access, a line or a block at a time. A NaN marks a node without a value.
 ///
 ///     std::vector<std::uint16_t> samples = ...; // i fastest
 ///     Sampled_function_traits_3<Kernel> f(Volume_view_3<Kernel>(lattice, samples.data()));
 ///
-/// The samples must neither change nor move while a view of them, or a function that was made of one, is in use. Copies
-/// share them. Const members may be called from many threads at once.
+/// The samples must neither change nor move while a view of them, or a function made from a view, is in use. Copies
+/// share them. Const members are thread-safe.
 template <class Kernel>
 class Volume_view_3 {
 public:
@@ -55,53 +54,53 @@ public:
   using Node = std::array<std::size_t, 3>;       ///< i, j, k
   using Strides = std::array<std::ptrdiff_t, 3>; ///< distances in bytes
 
-  /// Blocks of so many planes use up what the memory hands out at once where k is fastest: 64 bytes are 16 floats.
+  /// The number of planes that are read together: where k is fastest, 16 floats fill a cache line of 64 bytes.
   static constexpr std::size_t planes_at_once = 16;
 
-  /// Views samples that lie one after the other, i fastest. If there is an `owner`, it is kept as long as the view.
+  /// Views contiguous samples, i fastest. The view keeps `owner` alive.
   template <class Number>
   Volume_view_3(const Lattice& lattice, const Number* samples, std::shared_ptr<const void> owner = nullptr)
       : Volume_view_3(lattice, samples, packed_strides(lattice.size(), sizeof(Number)), std::move(owner)) {}
 
-  /// Views samples whose neighbors along each axis lie `strides` apart. Strides may be negative, and need not be
+  /// Views samples whose neighbors along each axis are `strides` bytes apart. Strides may be negative and need not be
   /// multiples of the size of a number.
   template <class Number>
   Volume_view_3(const Lattice& lattice, const Number* samples, const Strides& strides,
                 std::shared_ptr<const void> owner = nullptr)
       : lattice_(lattice), first_(reinterpret_cast<const std::byte*>(samples)), strides_(strides),
         convert_(&convert<Number>), owner_(std::move(owner)), cells_(cells_of(lattice.size())) {
-    static_assert(std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>); // a byte may be no bool
+    static_assert(std::is_arithmetic_v<Number> && !std::is_same_v<Number, bool>); // not every byte is a valid bool
   }
 
-  /// Views samples of a part of a volume: those at the nodes of some cells of the lattice, of which the first is at
-  /// `samples`. The others are not known, and nothing may be asked for there. \throw std::invalid_argument unless the
-  /// lattice has the cells
+  /// Views the samples of a part of a volume, at the nodes of some cells of the lattice; `samples` points to the
+  /// first one. The other samples are unknown and must not be accessed. \throw std::invalid_argument unless the cells
+  /// are a non-empty block of the lattice
   template <class Number>
   static Volume_view_3 part(const Lattice& lattice, const Cell_block& cells, const Number* samples,
                             const Strides& strides, std::shared_ptr<const void> owner = nullptr) {
     for (std::size_t a = 0; a < 3; ++a)
       check_argument(cells.first[a] < cells.end[a] && cells.end[a] < lattice.size()[a],
-                     "a part of a volume has no cells, or has some beyond its lattice: choose cells of the lattice");
+                     "a part of a volume has no cells or extends beyond its lattice: choose cells of the lattice");
     Volume_view_3 view(lattice, samples, strides, std::move(owner));
     view.cells_ = cells;
     for (std::size_t a = 0; a < 3; ++a) view.to_first_ += std::ptrdiff_t(cells.first[a]) * strides[a];
     return view;
   }
 
-  /// Views the values of a volume, which must outlive the view. \throw std::invalid_argument unless there are as many
-  /// of them as nodes
+  /// Views the values of a volume, which must outlive the view. \throw std::invalid_argument unless there is one
+  /// value per node
   static Volume_view_3 of(const Volume_3<Kernel>& volume) {
     check_argument(volume.values.size() == volume.lattice.number_of_nodes(),
-                   "a volume has not as many values as its lattice has nodes: choose the lattice that it has");
+                   "the number of values of a volume differs from the number of nodes of its lattice: correct one");
     return Volume_view_3(volume.lattice, volume.values.data());
   }
   static Volume_view_3 of(Volume_3<Kernel>&&) = delete;
 
-  /// Takes a volume over. \throw std::invalid_argument unless there are as many values as nodes
+  /// Takes ownership of a volume. \throw std::invalid_argument unless there is one value per node
   Volume_view_3(Volume_3<Kernel> volume) // NOLINT(google-explicit-constructor): a volume is a view of its own values
       : Volume_view_3(std::make_shared<const Volume_3<Kernel>>(std::move(volume))) {}
 
-  /// The same samples in another kernel with numbers of the same type.
+  /// The same samples in another kernel with the same number type.
   template <class Other>
   explicit Volume_view_3(const Volume_view_3<Other>& other) requires std::is_same_v<typename Other::FT, FT>
       : lattice_(other.lattice_),
@@ -114,7 +113,7 @@ public:
 
   const Lattice& lattice() const { return lattice_; } ///< where the samples are
   const Cell_block& cells() const { return cells_; }  ///< the cells at whose nodes samples are known: see part()
-  /// Whether some samples are not known.
+  /// Whether some samples are unknown.
   bool is_part() const { return cells_ != cells_of(lattice_.size()); }
 
   /// The sample at node (i, j, k).
@@ -124,21 +123,21 @@ public:
     return sample;
   }
 
-  /// Copies the samples at a node and those that follow it along an axis, as many as there is room for.
+  /// Copies out.size() samples, from the one at `first` onward along an axis.
   void copy_line(const Node& first, std::size_t axis, std::span<FT> out) const {
     convert_(at(first), strides_[axis], out.size(), out.data());
   }
 
-  /// Copies the samples at a node and those before it along an axis, as many as there is room for.
+  /// Copies out.size() samples, from the one at `last` backward along an axis.
   void copy_line_backwards(const Node& last, std::size_t axis, std::span<FT> out) const {
     convert_(at(last), -strides_[axis], out.size(), out.data());
   }
 
-  /// Copies the samples at the nodes of a block of that size, i fastest. It goes through the memory of the samples in
-  /// their order there.
+  /// Copies the samples at the nodes of a block of the given size, i fastest. Reads the samples in the order of their
+  /// memory.
   void copy_block(const Node& first, const Node& size, std::span<FT> out) const {
     const auto distance = [&](std::size_t axis) { return strides_[axis] < 0 ? -strides_[axis] : strides_[axis]; };
-    std::size_t line = 0; // the axis along which neighbors are nearest
+    std::size_t line = 0; // the axis with the smallest stride
     for (std::size_t axis = 1; axis < 3; ++axis)
       if (distance(axis) < distance(line)) line = axis;
     const Node steps = {1, size[0], size[0] * size[1]};
@@ -157,7 +156,7 @@ public:
       }
   }
 
-  /// Copies all samples. \pre no part of them is unknown
+  /// Copies all samples. \pre all are known
   template <class ConcurrencyTag = CGAL::Parallel_if_available_tag>
   Volume_3<Kernel> to_volume() const {
     CGAL_precondition(!is_part());
@@ -186,8 +185,8 @@ private:
 
   template <class Number>
   static void convert(const std::byte* first, std::ptrdiff_t stride, std::size_t count, FT* out) {
-    constexpr std::size_t width = sizeof(Number), at_once = 16; // so many at a time the compiler converts in packs
-    std::array<Number, at_once> numbers;                        // a copy, as samples may not be aligned
+    constexpr std::size_t width = sizeof(Number), at_once = 16; // enough for the compiler to vectorize the conversion
+    std::array<Number, at_once> numbers;                        // a copy, because samples may not be aligned
     std::size_t n = 0;
     if (stride == std::ptrdiff_t(width))
       for (; n + at_once <= count; n += at_once) {
@@ -200,12 +199,11 @@ private:
     }
   }
 
-  /// Prefetches what lies some strides ahead: where short lines are far apart, the processor does not do that by
-  /// itself.
+  /// Prefetches the memory some strides ahead: the processor does not do so by itself if short lines are far apart.
   static void fetch_ahead([[maybe_unused]] const std::byte* here, [[maybe_unused]] std::ptrdiff_t stride) {
 #ifdef __GNUC__
     constexpr std::ptrdiff_t lines = 12;
-    const auto place = reinterpret_cast<std::uintptr_t>(here) + std::uintptr_t(lines * stride); // may be no sample
+    const auto place = reinterpret_cast<std::uintptr_t>(here) + std::uintptr_t(lines * stride); // may be out of range
     __builtin_prefetch(reinterpret_cast<const void*>(place));
 #endif
   }
@@ -218,31 +216,31 @@ private:
   Lattice lattice_;
   const std::byte* first_;
   Strides strides_;
-  void (*convert_)(const std::byte*, std::ptrdiff_t, std::size_t, FT*); // knows the type of the numbers
+  void (*convert_)(const std::byte*, std::ptrdiff_t, std::size_t, FT*); // for the type of the samples
   std::shared_ptr<const void> owner_;
   Cell_block cells_;
-  std::ptrdiff_t to_first_ = 0; // from node (0, 0, 0), which may not be known, to the first one that is
+  std::ptrdiff_t to_first_ = 0; // from node (0, 0, 0) to the first known node
 };
 
-/// The parts of a volume that are known here, and how numbers are exchanged with the processes that know the other
-/// parts. All processes call the same algorithms with their parts, and get the same results, bit for bit, however the
-/// volume is cut.
+/// The parts of a volume that this process has, and how it exchanges numbers with the processes that have the other
+/// parts. All processes call the same algorithms with their own parts and get the same results, bit for bit, for
+/// every partition of the volume.
 template <class Kernel>
 struct Volume_parts_3 {
-  /// The samples of a part and around it, of which some cells belong to that part and to no other in any process.
+  /// The samples of a part and around it, and the cells that belong to this part and to no other in any process.
   struct Part {
     Volume_view_3<Kernel> volume; ///< see Volume_view_3::part()
-    Cell_block cells;             ///< that belong to it
+    Cell_block cells;             ///< the cells that belong to the part
   };
-  using Numbers = std::vector<double>; ///< what a process sends to the others
+  using Numbers = std::vector<double>; ///< the message of a process to the others
 
   Lattice_3<Kernel> lattice; ///< of the whole volume
-  std::vector<Part> parts;   ///< those of this process; there may be none
-  /// Gathers the numbers of all processes, given those of this one: one process after the other, in the same order in
+  std::vector<Part> parts;   ///< those of this process; may be empty
+  /// Given the numbers of this process, returns those of all processes, concatenated in an order that is the same in
   /// all of them.
   std::function<Numbers(Numbers)> gather = [](Numbers numbers) { return numbers; };
 
-  /// The one part of a whole volume. \pre no part of it is unknown
+  /// The single part of a whole volume. \pre all samples are known
   static Volume_parts_3 of(const Volume_view_3<Kernel>& volume) {
     CGAL_precondition(!volume.is_part());
     return {volume.lattice(), {{volume, volume.cells()}}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a spline asks about all samples of a volume: their greatest magnitude, their type, and the degree of the
-// polynomials by which they are extended beyond the border.
+// Properties of all samples of a volume that a spline depends on: their maximum magnitude, their type, and the degree
+// of the polynomials that extend them beyond the border.
 #ifndef EQUIAFFINE_VOLUME_VOLUME_SURVEY_H
 #define EQUIAFFINE_VOLUME_VOLUME_SURVEY_H
 
@@ -23,11 +23,12 @@
 
 namespace equiaffine {
 
-/// The numbers of ends of lines for each degree of the polynomials by which samples are extended beyond the border.
+/// The number of ends of lines that vote for each degree of the polynomials that extend the samples beyond the
+/// border.
 struct Border_votes {
-  std::int64_t constant = 0; ///< for 0: samples are steps
+  std::int64_t constant = 0; ///< for degree 0: the samples are steps
   std::int64_t lesser = 0;   ///< for the degree of the spline
-  std::int64_t greater = 0;  ///< for a greater one
+  std::int64_t greater = 0;  ///< for a greater degree
 
   /// Adds the votes of another part.
   void add(const Border_votes& other) {
@@ -37,12 +38,12 @@ struct Border_votes {
   }
 };
 
-/// What a spline asks about all samples of a volume. The surveys of the parts of a volume, in any order, add up to that
-/// of the whole one, bit for bit.
+/// Properties of all samples of a volume that a spline depends on. The surveys of the parts of a volume, added in any
+/// order, give that of the whole volume, bit for bit.
 struct Volume_survey {
-  double greatest = 0;            ///< the greatest magnitude of a sample that is finite
-  bool are_floats = true;         ///< whether all samples are numbers of type float
-  Border_votes border_votes = {}; ///< of the ends of lines
+  double greatest = 0;            ///< the maximum magnitude of the finite samples
+  bool are_floats = true;         ///< whether all samples are representable as float
+  Border_votes border_votes = {}; ///< the votes of the ends of lines
 
   /// Adds the survey of another part.
   void add(const Volume_survey& other) {
@@ -52,11 +53,11 @@ struct Volume_survey {
   }
 };
 
-/// Says of a volume of which only a part is known (Volume_view_3::part) what belongs to that part, and how its survey
-/// is combined with those of the other parts, which other processes may have.
+/// The cells of a volume that belong to a part (Volume_view_3::part), and how its survey is combined with those of
+/// the other parts, which may be in other processes.
 struct Volume_part {
   Cell_block cells; ///< the cells that belong to this part and to no other
-  /// Is called once with the survey of these cells, and makes that of all parts of it: with MPI, by reductions.
+  /// Called once with the survey of these cells; replaces it by that of all parts, for example by MPI reductions.
   std::function<void(Volume_survey&)> reduce = [](Volume_survey&) {};
 };
 
@@ -64,11 +65,11 @@ struct Volume_part {
 
 namespace equiaffine::internal {
 
-/// How far the polynomial of degree d through f_1 .. f_{d+1} is from f_0: the magnitude of the difference of order d +
-/// 1.
+/// How far the polynomial of degree d through f_1 .. f_{d+1} is from f_0: the magnitude of the difference of
+/// order d + 1.
 template <class FT>
 FT error_of_prediction(std::span<const FT> f, int d) {
-  FT sum = 0, binomial = 1; // exact: small integers
+  FT sum = 0, binomial = 1; // small integers: exact
   for (int j = 0; j <= d + 1; ++j) {
     sum += (j % 2 ? -binomial : binomial) * f[std::size_t(j)];
     binomial = binomial * FT(d + 1 - j) / FT(j + 1);
@@ -76,15 +77,15 @@ FT error_of_prediction(std::span<const FT> f, int d) {
   return std::abs(sum);
 }
 
-/// Counts the vote of the end of a line that has the samples f from its end on. It is for constants if most samples are
-/// equal to the next one, but not all: they are steps. Else it is for the degree that predicts the sample at the end
-/// better than the other one; a short line has no samples for the greater one. There is no vote if the lesser one
-/// predicts it up to the rounding of the samples it takes, or if one of them is NaN.
+/// Adds the vote of the end of a line with the samples f, counted from that end. It is for constants if most samples,
+/// but not all, equal their neighbor: they are steps. Otherwise it is for the degree that predicts the first sample
+/// better; a line that is too short for the greater degree votes for the lesser one. There is no vote if the lesser
+/// degree predicts the sample up to rounding, or if a sample is NaN.
 template <class FT>
 void add_vote(std::span<const FT> f, int lesser, int greater, Border_votes& votes) {
   const FT of_lesser = error_of_prediction(f, lesser);
   const FT of_greater = f.size() < std::size_t(greater) + 2 ? of_lesser : error_of_prediction(f, greater);
-  FT largest = 0; // the last sample alone may be nearly 0
+  FT largest = 0; // over all samples, because the first one may be nearly 0
   std::size_t equals = 0;
   for (std::size_t j = 0; j <= std::size_t(lesser) + 1; ++j) {
     largest = std::max(largest, std::abs(f[j]));
@@ -96,12 +97,13 @@ void add_vote(std::span<const FT> f, int lesser, int greater, Border_votes& vote
   else ++votes.lesser;
 }
 
-/// The greater degree that the polynomials may have that extend a volume beyond the border for a spline of degree n.
+/// For a spline of degree n, the greater of the two degrees of polynomials that may extend a volume beyond the
+/// border.
 inline int greater_border_degree(int degree) { return std::min(degree + 2, greatest_border_degree); }
 
-/// The votes of the ends of lines that belong to a block of cells, where all samples that a vote looks at are known.
-/// \throw Input_error for bad options \pre the samples of the block are known. Time: proportional to the number of
-/// samples in the n + 4 layers at the border.
+/// The votes of the ends of lines that belong to a block of cells, where all samples for a vote are known. The time
+/// is proportional to the number of samples in the n + 4 layers at the border. \throw Input_error for bad options
+/// \pre the samples of the block are known
 template <class Kernel>
 Border_votes border_votes(const Volume_view_3<Kernel>& volume, const Volume_options& options, const Cell_block& cells) {
   using FT = typename Kernel::FT;
@@ -114,7 +116,7 @@ Border_votes border_votes(const Volume_view_3<Kernel>& volume, const Volume_opti
   for (std::size_t a = 0; a < 3; ++a) {
     if (size[a] < std::size_t(degree) + 2) continue;
     const std::span f = std::span(samples).first(std::min(size[a], std::size_t(greater) + 2));
-    const std::size_t b = a == 0 ? 1 : 0, c = a == 2 ? 1 : 2; // in the order of the memory where i is fastest
+    const std::size_t b = a == 0 ? 1 : 0, c = a == 2 ? 1 : 2; // in memory order if i is fastest
     const Line_part of_a = own_nodes_of(cells, a, size[a]), of_b = own_nodes_of(cells, b, size[b]),
                     of_c = own_nodes_of(cells, c, size[c]), known = nodes_of(volume.cells(), a);
     const bool has_first = of_a.first == 0 && f.size() <= known.end;
@@ -137,10 +139,10 @@ Border_votes border_votes(const Volume_view_3<Kernel>& volume, const Volume_opti
   return votes;
 }
 
-/// The degree of the polynomials that extend a volume beyond the border for a spline of degree n (see Line_filter): the
-/// one with the most votes. Steps, as of a mask, go on as constants: polynomials through them rise beyond the border,
-/// and would move a surface that is a few samples away. Degree n is chosen for noise and for edges in a scan, which n +
-/// 2 would magnify.
+/// For a spline of degree n, the degree with the most votes for the polynomials that extend a volume beyond the
+/// border (see Line_filter). Steps, for example of a mask, are extended by constants: polynomials through them would
+/// rise beyond the border and move a surface that is a few samples away. Noise and edges in a scan vote for degree n,
+/// because degree n + 2 would magnify them.
 inline int elected_border_degree(const Border_votes& votes, int degree) {
   if (votes.constant > std::max(votes.lesser, votes.greater)) return 0;
   return votes.greater > votes.lesser ? greater_border_degree(degree) : degree;
@@ -160,15 +162,14 @@ int border_degree(const Volume_parts_3<Kernel>& volume, int degree, Spline_schem
   return elected_border_degree(of_all, degree);
 }
 
-/// The survey of the samples that belong to a block of cells, before they are smoothed. The spline has that degree and
-/// scheme. \throw std::invalid_argument unless samples are known in all of these cells
+/// The survey of the unsmoothed samples that belong to a block of cells, for a spline with the degree and scheme of
+/// the options. \throw std::invalid_argument unless the samples of these cells are known
 template <class ConcurrencyTag, class Kernel>
 Volume_survey volume_survey(const Volume_view_3<Kernel>& volume, const Volume_options& options,
                             const Cell_block& cells) {
   using FT = typename Kernel::FT;
-  check_argument(
-      clamped(cells, volume.cells()) == cells,
-      "fewer samples of a volume are known than belong to a part of it: let more be known, see cells_to_know()");
+  check_argument(clamped(cells, volume.cells()) == cells,
+                 "some samples of a part of a volume are unknown: provide all samples at the nodes of its cells");
   constexpr std::size_t planes_at_once = Volume_view_3<Kernel>::planes_at_once;
   const auto& size = volume.lattice().size();
   const auto own = [&](std::size_t a) { return own_nodes_of(cells, a, size[a]); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Computes the distance to a closed triangle mesh at every node of a lattice.
+// Computes the signed distance to a closed triangle mesh at every node of a lattice.
 #ifndef EQUIAFFINE_VOLUME_SIGNED_DISTANCE_VOLUME_H
 #define EQUIAFFINE_VOLUME_SIGNED_DISTANCE_VOLUME_H
 
@@ -32,19 +32,19 @@
 
 namespace equiaffine::internal {
 
-/// The kernel that decides on which side of the mesh a point lies: its predicates are exact.
+/// The kernel that decides on which side of the mesh a point lies. Its predicates are exact.
 using Side_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Distance_mesh = CGAL::Surface_mesh<Side_kernel::Point_3>;
 
-/// A point as text for messages.
+/// A point as text for error messages.
 inline std::string place(const Side_kernel::Point_3& p) {
   std::ostringstream text;
   text << '(' << p.x() << ", " << p.y() << ", " << p.z() << ')';
   return text.str();
 }
 
-/// Throws Input_error if a coordinate is not finite, or so large that 1 added to it vanishes by rounding: CGAL decides
-/// on which side a point is by rays, through a second point one unit away.
+/// Throws Input_error if a coordinate is not finite, or so large that adding 1 has no effect in floating point: CGAL
+/// finds the side of a point by a ray through a second point one unit away.
 inline void check_coordinates_of_mesh(const Distance_mesh& mesh) {
   constexpr double greatest = 1e15;
   for (const auto v : mesh.vertices()) {
@@ -59,22 +59,22 @@ inline void check_coordinates_of_mesh(const Distance_mesh& mesh) {
   }
 }
 
-/// Throws Input_error if the area of a triangle is so small that its square is no normal number: distances are measured
-/// along normal vectors, whose squared lengths would lose their digits or vanish.
+/// Throws Input_error if the squared area of a triangle underflows: distances are computed with normal vectors whose
+/// squared lengths would lose digits or vanish.
 inline void check_areas(const Distance_mesh& mesh) {
   for (const auto f : mesh.faces()) {
     const auto h = mesh.halfedge(f);
     const auto &p = mesh.point(mesh.source(h)), &q = mesh.point(mesh.target(h)),
                &r = mesh.point(mesh.target(mesh.next(h)));
     if (CGAL::cross_product(q - p, r - p).squared_length() < std::numeric_limits<double>::min())
-      throw Input_error("the mesh has a triangle too small to measure from, near " + place(p) +
-                        ", the square of its area leaves the range of double precision: choose a smaller unit, or "
-                        "remove the triangle if the others are larger");
+      throw Input_error("the mesh has a triangle near " + place(p) +
+                        " whose squared area underflows double precision: choose a smaller unit of length, or remove "
+                        "the triangle if the others are larger");
   }
 }
 
-/// Throws Input_error unless the mesh bounds a volume: its faces are triangles, it has no border, and triangles touch
-/// at common edges and vertices only and are not too small.
+/// Throws Input_error unless the mesh bounds a volume: its faces are triangles that are not too small and touch only
+/// at common edges and vertices, and it has no border.
 inline void check_bounds_volume(const Distance_mesh& mesh) {
   if (mesh.number_of_faces() == 0) throw Input_error("the mesh has no faces: give a closed mesh of triangles");
   check_coordinates_of_mesh(mesh);
@@ -93,13 +93,13 @@ inline void check_bounds_volume(const Distance_mesh& mesh) {
   CGAL::Polygon_mesh_processing::self_intersections<CGAL::Sequential_tag>(mesh, std::back_inserter(contacts),
                                                                           CGAL::parameters::maximum_number(1));
   if (!contacts.empty())
-    throw Input_error("the mesh has degenerate triangles or intersects itself, near " +
+    throw Input_error("the mesh has degenerate triangles or intersects itself near " +
                       place(mesh.point(mesh.target(mesh.halfedge(contacts.front().first)))) +
-                      ", so that its inside is not defined: repair it first");
+                      ", so its inside is not defined: repair it first");
   check_areas(mesh);
 }
 
-/// Nodes first[n] .. first[n] + size[n] - 1 along each axis n of a lattice.
+/// The nodes first[n] .. first[n] + size[n] - 1 along each axis n of a lattice.
 struct Lattice_block {
   std::array<std::size_t, 3> first, size;
 
@@ -113,7 +113,7 @@ struct Lattice_block {
   }
 };
 
-/// The parallelepiped of a block of nodes, and the vector to its center from a point of the surface.
+/// The parallelepiped of a block of nodes, and the vector from a point of the surface to its center.
 struct Node_region {
   using Point_3 = Distance_kernel::Point_3;
   using Vector_3 = Distance_kernel::Vector_3;
@@ -123,10 +123,10 @@ struct Node_region {
   double squared_radius;
   Vector_3 from_surface;
 
-  /// Whether no point of the half-space, which is given from the center, is nearest to a point of the region. Let L and
-  /// n be its distance and direction, g = from_surface, e a vector from the center into the region. The squared
-  /// distance of center + e to the half-space is at least (L + n e)^2 >= L^2 + 2 L n e, to the surface at most
-  /// (g + e)^2 = g^2 + 2 g e + e^2.
+  /// Whether no point of the half-space, given relative to the center, is nearest to a point of the region. Let L and
+  /// n be the distance and direction of the half-space, g = from_surface, and e a vector from the center into the
+  /// region. The squared distance of center + e to the half-space is at least (L + n e)^2 >= L^2 + 2 L n e, and to
+  /// the surface at most (g + e)^2 = g^2 + 2 g e + e^2.
   bool is_far_from(const Half_space& bound) const {
     const double surplus = bound.distance * bound.distance - from_surface.squared_length() - squared_radius;
     if (!(bound.distance > 0 && surplus > 0)) return false;
@@ -135,12 +135,13 @@ struct Node_region {
   }
 };
 
-/// Measures distances to triangles at all nodes of a lattice. It goes down two trees at once: blocks of nodes, and
-/// with each the parts of the tree of triangles that may be nearest to one of its nodes. A block inherits the parts of
-/// the block that holds it, drops those that are too far, and opens boxes that are large beside it. Source of such
-/// traversals: A. Gray, A. Moore, 'N-body' problems in statistical learning, 2000.
+/// Measures distances to triangles at all nodes of a lattice. It descends two trees at once: blocks of nodes, and for
+/// each block the parts of the triangle tree that may be nearest to one of its nodes. A block inherits these parts
+/// from its parent, drops those that are too far, and opens boxes that are large compared to the block. Source of
+/// such traversals: A. Gray, A. Moore, 'N-body' problems in statistical learning, 2000.
 ///
-/// A distance is the least of those that CGAL computes to triangles, whichever way the nearest ones were found.
+/// The result is the minimum of the distances that CGAL computes to the triangles. It does not depend on the
+/// traversal.
 template <class ConcurrencyTag, class Kernel, class Progress>
 class Lattice_distances {
 public:
@@ -153,7 +154,7 @@ public:
     measure({{0, 0, 0}, lattice.size()}, node(0, 0, 0), {{0, {Vector_3(0, 0, 0), 0}}}, first_triangle);
   }
 
-  /// In the order of `Volume_3::values`.
+  /// The distances in the order of `Volume_3::values`.
   std::vector<FT>& distances() { return distances_; }
 
 private:
@@ -162,7 +163,7 @@ private:
   using Part = Triangle_tree::Part;
   struct Candidate {
     Part part;
-    Half_space bound; ///< given from the center of a block
+    Half_space bound; ///< relative to the center of a block
   };
   using Candidates = std::vector<Candidate>;
   struct Nearest {
@@ -172,14 +173,14 @@ private:
   };
   static constexpr Part first_triangle = ~Part(0);
   static constexpr std::size_t smallest_block = 8, smallest_task = 4096; // nodes
-  static constexpr double largest_box = 0.25;                            // over the size of a block
+  static constexpr double largest_box = 0.25;                            // relative to the size of a block
 
   Point_3 node(std::size_t i, std::size_t j, std::size_t k) const {
     const auto p = lattice_.point(FT(i), FT(j), FT(k));
     return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
   }
 
-  /// The region of a block, without a point of the surface.
+  /// The region of a block, with `from_surface` still zero.
   Node_region region(const Lattice_block& block) const {
     const auto& [i, j, k] = block.first;
     const auto& [nx, ny, nz] = block.size;
@@ -192,7 +193,7 @@ private:
     return {p + (h[0] + h[1] + h[2]), h, squared_radius, Vector_3(0, 0, 0)};
   }
 
-  /// Replaces `nearest` if a triangle of a part is nearer to p; `project` takes a triangle and p to the nearest point.
+  /// Replaces `nearest` if a triangle of a part is nearer to p; `project` maps a triangle and p to the nearest point.
   template <class Project>
   void improve(Nearest& nearest, const Point_3& p, Part part, const Project& project) const {
     if (Triangle_tree::is_triangle(part)) {
@@ -211,7 +212,7 @@ private:
       if (distances[n] <= nearest.squared_distance) improve(nearest, p, children[n], project);
   }
 
-  /// The nearest triangle to p among candidates, whose bounds are given from a center; `guess` is one that is near.
+  /// The triangle nearest to p among candidates whose bounds are relative to `center`; `guess` is a nearby triangle.
   template <class Project>
   Nearest find_nearest(const Point_3& p, const Point_3& center, const Candidates& candidates, Part guess,
                        const Project& project) const {
@@ -226,7 +227,7 @@ private:
     return nearest;
   }
 
-  /// Adds a part to the candidates of a region, or its children if it is large, unless it is too far.
+  /// Adds a part to the candidates of a region unless it is too far; adds its children instead if it is large.
   void add_if_near(Candidates& candidates, const Node_region& region, Part part) const {
     const Half_space bound = tree_.half_space(part, region.center);
     if (region.is_far_from(bound)) return;
@@ -236,7 +237,7 @@ private:
     else candidates.push_back({part, bound});
   }
 
-  /// The candidates of a region among those of a region around it, whose center is given.
+  /// The candidates of a region, selected from those of an enclosing region with the given center.
   Candidates near_candidates(const Node_region& region, const Point_3& outer_center, const Candidates& outer) const {
     Candidates candidates;
     const Vector_3 v = region.center - outer_center;
@@ -250,7 +251,7 @@ private:
     distances_[lattice_.index(i, j, k)] = FT(distance <= band_ ? distance : std::numeric_limits<double>::quiet_NaN());
   }
 
-  /// Measures at the nodes of a block, one by one.
+  /// Measures distances at the nodes of a block one by one.
   void measure_nodes(const Lattice_block& block, const Point_3& center, const Candidates& candidates, Part guess) {
     const auto project = Distance_kernel().construct_projected_point_3_object();
     block.for_each_node([&](std::size_t i, std::size_t j, std::size_t k) {
@@ -260,7 +261,7 @@ private:
     });
   }
 
-  /// The block cut in half along those axes along which it is more than half as long as along its longest.
+  /// Halves a block along each axis along which it is longer than half of its longest side.
   static std::vector<Lattice_block> halves(const Lattice_block& block, const std::array<Vector_3, 3>& half_sides) {
     double longest = 0;
     for (const Vector_3& h : half_sides) longest = std::max(longest, h.squared_length());
@@ -278,7 +279,7 @@ private:
     return blocks;
   }
 
-  /// Measures at the nodes of a block that lies in one with the given center and candidates.
+  /// Measures distances at the nodes of a block inside one with the given center and candidates.
   void measure(const Lattice_block& block, const Point_3& outer_center, const Candidates& outer, Part guess) {
     Node_region region = this->region(block);
     const Nearest nearest =
@@ -310,7 +311,7 @@ private:
   std::vector<FT> distances_;
 };
 
-/// The triangles of a mesh in a tree, whose slack is for the nodes of a lattice.
+/// The tree of the triangles of a mesh, with a slack for distances from the nodes of a lattice.
 template <class Kernel>
 Triangle_tree make_triangle_tree(const Distance_mesh& mesh, const Lattice_3<Kernel>& lattice) {
   const CGAL::Cartesian_converter<Side_kernel, Distance_kernel> convert;
@@ -327,16 +328,16 @@ Triangle_tree make_triangle_tree(const Distance_mesh& mesh, const Lattice_3<Kern
   for (int n = 0; n < 3; ++n) largest = std::max({largest, std::abs(box.min(n)), std::abs(box.max(n))});
   const double epsilon = std::max(CGAL::to_double(std::numeric_limits<typename Kernel::FT>::epsilon()),
                                   std::numeric_limits<double>::epsilon());
-  // Some ten roundings of coordinates and of their differences lie between a node and its distance.
+  // About ten roundings of coordinates and of their differences occur between a node and its distance.
   return Triangle_tree(std::move(triangles), 32 * epsilon * largest);
 }
 
-/// Gives the distances of a row of nodes their signs: side(i) is the side of node i. If the surface separates two
-/// neighbors, their distances to it add up to at most the step between them: only then is the side determined anew.
-/// Where a distance is missing it is larger than the band.
+/// Signs the distances of a row of nodes; side(i) returns the side of node i. If the surface separates two neighbors,
+/// their distances to it add up to at most the step between them, so only then is the side computed anew. A missing
+/// distance is larger than the band.
 template <class Iterator, class Side>
 void sign_row(Iterator distances, std::size_t count, double step, double band, const Side& side) {
-  const double reach = 1.01 * step; // rounding of the distances is less than a hundredth of a step
+  const double reach = 1.01 * step; // the distances are rounded by less than a hundredth of a step
   double last_distance = 0;
   CGAL::Bounded_side s = CGAL::ON_BOUNDARY;
   for (std::size_t i = 0; i < count; ++i) {
@@ -358,7 +359,7 @@ std::vector<typename Kernel::FT> signed_distances(const Distance_mesh& mesh, con
   Lattice_distances<ConcurrencyTag, Kernel, Progress> measured(tree, lattice, on_progress, band);
   using Side = CGAL::Side_of_triangle_mesh<Distance_mesh, Side_kernel>;
   Side::AABB_tree side_tree(faces(mesh).first, faces(mesh).second, mesh);
-  side_tree.build(); // otherwise the first query builds it, and several threads may be first
+  side_tree.build(); // now, because several threads may make the first query
   const Side side(side_tree);
   const std::size_t nx = lattice.size()[0], ny = lattice.size()[1], nz = lattice.size()[2];
   const double step = std::sqrt(CGAL::to_double(lattice.steps()[0].squared_length()));
@@ -375,20 +376,21 @@ std::vector<typename Kernel::FT> signed_distances(const Distance_mesh& mesh, con
 
 namespace equiaffine {
 
-/// Computes the distance to a closed triangle mesh at every node of a lattice. It is negative inside, positive outside,
-/// and 0 on the surface. A point is inside if an odd number of the mesh's components encloses it, whatever their
-/// orientations, so that a shell within a shell is a cavity.
+/// Computes the signed distance to a closed triangle mesh at every node of a lattice: negative inside, positive
+/// outside, and 0 on the surface. A point is inside if an odd number of the mesh's components encloses it, whatever
+/// their orientations, so that a shell within a shell is a cavity.
 ///
-/// Signs are exact for the given coordinates, distances correct to a few units in the last place of the coordinates:
-/// a distance is the least of those that CGAL computes to the triangles. The result does not depend on the number of
-/// threads. `on_progress(n)` is called after every n nodes, from any thread. Nodes farther than `band` from the surface
-/// have no value (NaN), which saves most of the time if they are many; by default every node has one.
+/// Signs are exact for the given coordinates. Distances are correct to a few units in the last place of the
+/// coordinates: each is the minimum of the distances that CGAL computes to the triangles. The result does not depend
+/// on the number of threads. `on_progress(n)` is called after every n nodes, from any thread. Nodes farther than
+/// `band` from the surface have no value (NaN), which saves most of the time if there are many of them; by default
+/// every node has a value.
 ///
-/// Neighboring nodes share the search for what is nearest. It takes time about linear in the nodes if triangles are
-/// about as large as steps or larger, and memory linear in triangles and nodes.
+/// Neighboring nodes share the search for the nearest triangle. The time is about linear in the number of nodes if
+/// the triangles are not much smaller than the steps. The memory is linear in the number of triangles and nodes.
 ///
-/// \throws Input_error if the mesh has no faces, faces other than triangles, coordinates that are not finite or beyond
-/// 1e15, holes, self-intersections, or triangles that are degenerate or whose squared area is no normal number.
+/// \throws Input_error if the mesh has no faces, faces other than triangles, coordinates that are not finite or
+/// beyond 1e15, holes, self-intersections, or triangles that are degenerate or whose squared area underflows.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class Kernel, class Progress>
 Volume_3<Kernel> signed_distance_volume(const TriangleMesh& mesh, const Lattice_3<Kernel>& lattice,
                                         const Progress& on_progress,
@@ -399,7 +401,7 @@ Volume_3<Kernel> signed_distance_volume(const TriangleMesh& mesh, const Lattice_
   return {lattice, internal::signed_distances<ConcurrencyTag>(copy, lattice, on_progress, band)};
 }
 
-/// Does the same without reports of progress, and with a value at every node.
+/// The same without progress reports, and with a value at every node.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class Kernel>
 Volume_3<Kernel> signed_distance_volume(const TriangleMesh& mesh, const Lattice_3<Kernel>& lattice) {
   return signed_distance_volume<ConcurrencyTag>(mesh, lattice, [](std::size_t) {});

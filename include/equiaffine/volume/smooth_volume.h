@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Smooths the samples of a volume by polynomials that fit their neighbors.
+// Smooths the samples of a volume by local polynomial fits.
 #ifndef EQUIAFFINE_VOLUME_SMOOTH_VOLUME_H
 #define EQUIAFFINE_VOLUME_SMOOTH_VOLUME_H
 
@@ -26,8 +26,8 @@
 namespace equiaffine::internal {
 
 /// The value at `center` of the polynomial of degree <= `degree` that fits the samples f_0 .. f_{count-1} by least
-/// squares with weights (1 - u^2)^4, u = (j - center) / reach, is linear in the samples; this returns its coefficients.
-/// They are weight_j sum_k p_k(center) p_k(j) with the orthonormal polynomials p_k, which Stieltjes' recurrence makes.
+/// squares with weights (1 - u^2)^4, u = (j - center) / reach, is linear in the samples. This function returns its
+/// coefficients, weight_j sum_k p_k(center) p_k(j), with the orthonormal polynomials p_k from Stieltjes' recurrence.
 /// Precondition: |u| < 1, count > degree.
 template <class FT>
 std::vector<FT> local_polynomial_weights(std::size_t count, FT center, FT reach, int degree) {
@@ -45,7 +45,7 @@ std::vector<FT> local_polynomial_weights(std::size_t count, FT center, FT reach,
     if (k == degree) return result;
     FT a = 0, norm = 0;
     for (std::size_t j = 0; j < count; ++j) a += weight[j] * (FT(j) - center) * p[j] * p[j];
-    for (std::size_t j = 0; j < count; ++j) { // p_{k+1} before it is normalized
+    for (std::size_t j = 0; j < count; ++j) { // p_{k+1} before normalization
       last[j] = ((FT(j) - center) - a) * p[j] - b * last[j];
       norm += weight[j] * last[j] * last[j];
     }
@@ -58,25 +58,26 @@ std::vector<FT> local_polynomial_weights(std::size_t count, FT center, FT reach,
   }
 }
 
-/// A filter of lines that smooths: node i gets the value of the polynomial of degree 7 that fits the samples around it.
-/// The fit is weighted by a bell of standard deviation `scale` steps that ends at sqrt(11) scale. Hence polynomials of
-/// degree 7 stay as they are and the error is that of order 8; a scale of 1 changes nothing. Near a border the window
-/// stays within the line, and the bell reaches to its other end. If the border degree is 0, the samples go on beyond
-/// the border as constants instead (Volume_survey.h): polynomials through steps would move them.
+/// A smoothing filter of lines: node i gets the value of the polynomial of degree 7 that fits the samples around it.
+/// The fit is weighted by a bell with a standard deviation of `scale` steps that ends at sqrt(11) scale. Polynomials
+/// of degree 7 are reproduced, so the error has order 8; a scale of 1 changes nothing. Near a border the window stays
+/// within the line, and the bell extends to the other end of the window. If the border degree is 0, the samples are
+/// extended beyond the border by constants instead (Volume_survey.h), because polynomials through steps would move
+/// them.
 template <class FT>
 class Smoothing_filter {
 public:
   static constexpr int padding = 0;
   static constexpr int degree = 7;
 
-  /// The number of nodes that the window has on each side of its center, in a long line.
+  /// The number of nodes on each side of the center of the window, in a long line.
   static std::size_t radius_of(FT scale) { return scale > 1 ? std::size_t(std::ceil(reach_of(scale))) - 1 : 0; }
 
   /// Makes a filter for lines of `count` nodes, which limit its window. Precondition: scale > 1.
   Smoothing_filter(FT scale, std::size_t count, int border_degree)
       : Smoothing_filter(scale, count, border_degree, {0, count}) {}
 
-  /// The same for lines of which only a part is known.
+  /// The same for lines that are known in part.
   Smoothing_filter(FT scale, std::size_t count, int border_degree, const Line_part& known)
       : count_(count), known_(known), radius_(std::min(radius_of(scale), (count - 1) / 2)) {
     const FT reach = reach_of(scale);
@@ -92,26 +93,26 @@ public:
       }
   }
 
-  /// The nodes in the windows of some nodes.
+  /// The union of the windows of some nodes.
   Line_part samples_of(const Line_part& nodes) const {
     const auto first_of = [&](std::size_t i) { return std::min(i - std::min(i, radius_), count_ - window()); };
     return {first_of(nodes.first), first_of(nodes.end - 1) + window()};
   }
 
-  /// The nodes whose windows are known.
+  /// The nodes whose whole windows are known.
   Line_part smoothed_nodes() const {
     const auto has_known_window = [&](std::size_t i) {
       const Line_part used = samples_of({i, i + 1});
       return known_.first <= used.first && used.end <= known_.end;
     };
-    Line_part nodes = known_; // windows move on with their nodes, so that those of the nodes between are known
+    Line_part nodes = known_; // windows are monotone in their nodes: the ends suffice
     while (nodes.first < nodes.end && !has_known_window(nodes.first)) ++nodes.first;
     while (nodes.first < nodes.end && !has_known_window(nodes.end - 1)) --nodes.end;
     return nodes;
   }
 
   /// Filters the known part of a line whose elements are rows of `width` numbers, i = 0 .. count - 1: from
-  /// `samples + i width` to `result + i stride`. Where a window is not known, the result is NaN.
+  /// `samples + i width` to `result + i stride`. The result is NaN where the window is not entirely known.
   void apply(const FT* samples, std::size_t count, std::size_t width, FT* result, std::size_t stride) const {
     const Line_part nodes = smoothed_nodes();
     for (std::size_t n = 0; n < count; ++n) {
@@ -122,7 +123,7 @@ public:
         continue;
       }
       std::fill_n(row, width, FT(0));
-      const bool is_near_end = i + radius_ >= count_; // if true, samples are taken in reverse
+      const bool is_near_end = i + radius_ >= count_; // if true, samples are read in reverse
       const std::vector<FT>& weights = weights_[std::min({i, count_ - 1 - i, radius_})];
       const std::size_t first = (is_near_end ? count_ - 1 : i < radius_ ? 0 : i - radius_) - known_.first;
       for (std::size_t j = 0; j < weights.size(); ++j) {
@@ -140,11 +141,11 @@ private:
   std::size_t count_;
   Line_part known_;
   std::size_t radius_;
-  std::vector<std::vector<FT>> weights_; // of node i < radius_, then of inner nodes
+  std::vector<std::vector<FT>> weights_; // of node i < radius_, then of the inner nodes
 };
 
-/// The smoothed samples of a volume at the nodes that are known, i fastest. They are NaN where not all that they are
-/// made of is known. \pre the scale is greater than 1
+/// The smoothed samples of a volume at its known nodes, i fastest. They are NaN where a sample in the window is
+/// unknown. \pre the scale is greater than 1
 template <class ConcurrencyTag, class Kernel>
 std::vector<typename Kernel::FT> smoothed_samples(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale,
                                                   int border_degree) {
@@ -162,7 +163,7 @@ std::vector<typename Kernel::FT> smoothed_samples(const Volume_view_3<Kernel>& v
   return result;
 }
 
-/// The part of a volume that is known, smoothed. \pre the scale is greater than 1
+/// The known part of a volume, smoothed. \pre the scale is greater than 1
 template <class ConcurrencyTag, class Kernel>
 Volume_view_3<Kernel> smoothed_part(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale,
                                     int border_degree) {
@@ -176,7 +177,8 @@ Volume_view_3<Kernel> smoothed_part(const Volume_view_3<Kernel>& volume, const t
   for (std::size_t a = 0; a < 3; ++a) {
     const Line_part nodes =
         Smoothing_filter<FT>(scale, volume.lattice().size()[a], border_degree, nodes_of(known, a)).smoothed_nodes();
-    check_argument(nodes.size() >= 2, "less samples of a volume are known than its smoothing needs: let more be known");
+    check_argument(nodes.size() >= 2,
+                   "too few samples of a part of a volume to smooth it: provide more of them, see cells_to_know()");
     cells.first[a] = nodes.first;
     cells.end[a] = nodes.end - 1;
   }
@@ -191,7 +193,7 @@ Volume_view_3<Kernel> smoothed_part(const Volume_view_3<Kernel>& volume, const t
 template <class FT>
 bool smooths(const FT& scale) {
   check_argument(scale >= 0 && scale - scale == 0,
-                 "the scale that a volume is smoothed by is not a number of 0 or more: choose one");
+                 "the scale of the smoothing of a volume is negative or not finite: give a number of at least 0");
   return scale > 1;
 }
 
@@ -199,17 +201,17 @@ bool smooths(const FT& scale) {
 
 namespace equiaffine {
 
-/// Returns a volume with less noise: along each axis every sample is replaced by the value of the polynomial of degree
-/// 7 that fits its neighbors by least squares. Neighbors are weighted by a bell with the standard deviation `scale` >=
-/// 0, in steps of the lattice, that ends at 3.3 times this (Savitzky, Golay 1964 with other weights). Smooth functions
-/// change by O(h^8), since polynomials of degree 7 do not change, at the border too. A scale of 1 or less changes
-/// nothing. White noise in fourth derivatives falls as scale^-5.5. A node whose window has a sample that is not finite
-/// gets one that is not finite.
+/// Returns a volume with less noise: along each axis, every sample is replaced by the value of the polynomial of
+/// degree 7 that fits its neighbors by weighted least squares. The weights are a bell with the standard deviation
+/// `scale` >= 0, in steps of the lattice, that ends at 3.3 times this distance (Savitzky, Golay 1964 with other
+/// weights). Smooth functions change by O(h^8), because polynomials of degree 7 are reproduced, also at the border. A
+/// scale of 1 or less changes nothing. White noise in fourth derivatives decreases as scale^-5.5. A node whose window
+/// contains a sample that is not finite gets a value that is not finite.
 ///
-/// The samples go on beyond the border as constants if most lines of the volume end in steps, as those of a mask do:
-/// polynomials through steps would move the surface between them.
+/// If most lines of the volume end in steps, for example in a mask, the samples are extended beyond the border by
+/// constants: polynomials through steps would move the surface between them.
 ///
-/// \throw std::invalid_argument unless the scale is finite and not negative, and there are as many values as nodes
+/// \throw std::invalid_argument unless the scale is finite and not negative, and there is one value per node
 ///
 /// Takes 20 scale operations per node. The result does not depend on the number of threads.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
@@ -223,9 +225,10 @@ Volume_3<Kernel> smooth_volume(Volume_3<Kernel> volume, const typename Kernel::F
   return volume;
 }
 
-/// The same for samples of any type: the result has numbers of the kernel, or is the volume itself. Of a part of a
-/// volume the nodes are kept whose windows are in it, and the votes of the ends of lines of all parts decide how
-/// samples go on beyond the border (Volume_survey.h). \throw std::invalid_argument if there are no such nodes
+/// The same for samples of any type. The result has numbers of the kernel, or is the volume itself if the scale
+/// changes nothing. For a part of a volume, it has the nodes whose windows lie in the part, and `votes` of all parts
+/// decide how samples are extended beyond the border (Volume_survey.h). \throw std::invalid_argument if there are no
+/// such nodes
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale,
                                     const Border_votes& votes) {
@@ -235,7 +238,7 @@ Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const t
   return Volume_3<Kernel>{volume.lattice(), internal::smoothed_samples<ConcurrencyTag>(volume, scale, border_degree)};
 }
 
-/// The same with the votes of the ends of lines that are known.
+/// The same with the votes of the known ends of lines.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class Kernel>
 Volume_view_3<Kernel> smooth_volume(const Volume_view_3<Kernel>& volume, const typename Kernel::FT& scale) {
   if (!internal::smooths(scale)) return volume;

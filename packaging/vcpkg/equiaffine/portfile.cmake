@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# An overlay port of the library, not tried here: vcpkg install equiaffine --overlay-ports=packaging/vcpkg
-# builds the clone that it stands in.
+# An overlay port of the library (not tested), which builds this clone of the repository:
+#   vcpkg install equiaffine --overlay-ports=packaging/vcpkg
 vcpkg_check_linkage(ONLY_STATIC_LIBRARY)
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of all attributes. A new one is a row here: columns of files, lists of names, estimates of errors, property
-// maps of `annotate`, web pages, pictures and the help of the program follow.
+// The table of all attributes. To add one, add a row here: columns of files, lists of names, error estimates,
+// property maps of `annotate`, web pages, pictures and the help of the program follow.
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_ATTRIBUTE_TABLE_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_ATTRIBUTE_TABLE_H
 
@@ -17,75 +17,74 @@
 #include <optional>
 #include <string_view>
 
-/// Sentences that tell people what a quantity is, and what red (positive) and blue (negative) mean.
+/// For users: the meaning of a quantity, and of red (positive) and blue (negative).
 namespace equiaffine::meanings {
 
 inline constexpr std::string_view k1 =
-    "The greater principal curvature. Red where the surface bends towards its normals in some direction, blue where "
-    "it bends away from them in all.";
+    "The larger principal curvature. Red where the surface bends toward its normals in some direction, blue where "
+    "it bends away from them in all directions.";
 inline constexpr std::string_view k2 =
-    "The lesser principal curvature. Blue where the surface bends away from its normals in some direction, red "
-    "where it bends towards them in all.";
+    "The smaller principal curvature. Blue where the surface bends away from its normals in some direction, red "
+    "where it bends toward them in all directions.";
 inline constexpr std::string_view gaussian_curvature =
-    "The product of the principal curvatures. Red where the surface is rounded like a ball, blue where it is a "
-    "saddle, white where it can be unrolled.";
+    "The product of the principal curvatures. Red where the surface is dome- or bowl-shaped, blue where it is a "
+    "saddle, white where it is developable.";
 inline constexpr std::string_view mean_curvature =
-    "The mean of the principal curvatures. Blue where the surface bulges to the side of its normals, red where it "
-    "is hollow there.";
+    "The mean of the principal curvatures. Blue where the surface is convex on the side of its normals, red where it "
+    "is concave.";
 inline constexpr std::string_view affine_gaussian_curvature =
-    "How affine normals spread, the same after affine maps of determinant 1. Red where they turn as on an "
-    "ellipsoid, blue where they turn to opposite sides, white as on a paraboloid.";
+    "The determinant of the affine shape operator, invariant under affine maps of determinant 1. Red where affine "
+    "normals vary as on an ellipsoid, blue where they vary in opposite directions, white as on a paraboloid.";
 inline constexpr std::string_view affine_mean_curvature =
-    "The mean of the affine principal curvatures. For normals that point out of the shape: blue as on an ellipsoid, "
-    "white as on a paraboloid, red as on a hyperboloid of two sheets.";
+    "The mean of the affine principal curvatures. With outward normals: blue as on an ellipsoid, white as on a "
+    "paraboloid, red as on a hyperboloid of two sheets.";
 inline constexpr std::string_view pick_invariant =
-    "How far the surface is from a quadric, where it is white. Blue where it bulges to the side of its normals, red "
-    "where it is hollow there, either on saddles.";
+    "The deviation from a quadric, on which it is 0 (white). Blue where the surface is convex on the side of its "
+    "normals, red where it is concave, either color on saddles.";
 inline constexpr std::string_view affine_normal_angle =
-    "How far the affine normal leans from the Euclidean one, in degrees: 0 as on a sphere. Darker is more.";
+    "The angle between the affine and the Euclidean normal, in degrees: 0 on a sphere. Darker is larger.";
 inline constexpr std::string_view affine_area_density =
-    "The affine area per Euclidean area, the fourth root of the size of the Gaussian curvature. Darker is more "
-    "curved, in both directions; pale where the surface can be unrolled.";
+    "The affine area per Euclidean area, |Gaussian curvature|^(1/4). Darker where more curved in both directions, "
+    "pale where developable.";
 inline constexpr std::string_view affine_k1 =
-    "The greater eigenvalue of the affine shape operator, where it is real. Red and blue as for the affine mean "
+    "The larger eigenvalue of the affine shape operator, where it is real. Red and blue as for the affine mean "
     "curvature.";
 inline constexpr std::string_view affine_k2 =
-    "The lesser eigenvalue of the affine shape operator, where it is real. Red and blue as for the affine mean "
+    "The smaller eigenvalue of the affine shape operator, where it is real. Red and blue as for the affine mean "
     "curvature.";
 inline constexpr std::string_view quadric_defect =
-    "How far the surface is from the quadric that touches it best, zero on quadrics and nowhere else. Darker is "
-    "farther.";
+    "The deviation from the osculating quadric: zero everywhere on quadrics and on no other surface. Darker is larger.";
 inline constexpr std::string_view shape_index =
-    "The form regardless of size. Blue for a dome on the side of the normals, white for a saddle, red for a bowl.";
-inline constexpr std::string_view curvedness = "How strongly the surface is curved, whatever its form. Darker is more.";
+    "The shape independent of size. Blue for a dome on the side of the normals, white for a saddle, red for a bowl.";
+inline constexpr std::string_view curvedness = "The amount of curvature, independent of shape. Darker is larger.";
 inline constexpr std::string_view affine_frame_scale =
-    "The size of the affine curvatures taken together, which the affine frame has for its unit. Darker is more.";
+    "The combined magnitude of the affine curvatures, the unit of the affine frame. Darker is larger.";
 inline constexpr std::string_view affine_frame_quality = "How well the affine frame is determined. Darker is better.";
 inline constexpr std::string_view vertex_area =
-    "The area of the mesh around the vertex: a third of that of its triangles. Darker is more.";
+    "The area of the vertex: a third of the area of its triangles. Darker is larger.";
 inline constexpr std::string_view affine_area =
-    "The affine area of the mesh around the vertex: its area times the affine area density. Darker is more.";
+    "The affine area of the vertex: its area times the affine area density. Darker is larger.";
 
 } // namespace equiaffine::meanings
 
 namespace equiaffine {
 
-/// The named lists that an attribute belongs to, as bits. An attribute that is in no list is computed only if it is
-/// selected by its own name. `of_mesh` is not a list: it marks attributes that only vertices of a mesh have.
+/// The named lists that contain an attribute, as bits. An attribute in no list is computed only if it is selected by
+/// its own name. `of_mesh` is not a list: it marks attributes that exist only at vertices of a mesh.
 namespace attribute_lists {
 
 inline constexpr unsigned none = 0, all = 1, basic = 2 | all, signature = 4, of_mesh = 8;
 
 } // namespace attribute_lists
 
-/// The input from which the getters of the table compute the attributes of a point.
+/// The input of the getters of the table at a point.
 template <class FT>
 struct Attribute_sample {
-  /// `area` is a third of the area of the triangles around the vertex of a mesh; NaN for a point that is not one.
+  /// `area` is a third of the area of the triangles around the vertex of a mesh; NaN for other points.
   Attribute_sample(const Local_structure_3<FT>& s, const FT& area = FT(std::numeric_limits<double>::quiet_NaN()))
       : euclidean(s.euclidean), affine(s.affine), vertex_area(area) {}
 
-  /// The affine frame, which is computed once, when a getter first needs it.
+  /// The affine frame, computed when a getter first needs it.
   const Affine_frame_3<FT>& frame() const {
     if (!frame_) frame_ = affine_frame(affine);
     return *frame_;
@@ -99,38 +98,39 @@ private:
   mutable std::optional<Affine_frame_3<FT>> frame_;
 };
 
-/// The words and symbols by which people read of a scalar attribute.
+/// The displayed words and symbols for a scalar attribute.
 struct Quantity {
-  std::string_view label;  ///< if it is empty, people read the name of the attribute
+  std::string_view label;  ///< if empty, the name of the attribute is displayed
   std::string_view symbol; ///< UTF-8
   std::string_view group;
   int weight = 0;                ///< under p -> s p the number is multiplied by s^(weight / 2)
   int rank = unranked;           ///< attributes with smaller ranks are offered first
   std::string_view meaning = {}; ///< what it is, and what red (positive) and blue (negative) mean
 
-  static constexpr int unranked = 12; ///< offered after all others, in the order of the columns
+  static constexpr int unranked = 12; ///< after all others, in the order of the columns
 };
 
-/// How fits estimate the error of an attribute, for the column NAME_error of files.
+/// The error estimate of an attribute by fits, for the column NAME_error of files.
 struct Attribute_error {
-  std::size_t place = 0; ///< among the columns of errors; the two that splines have, too, come first
+  std::size_t place = 0; ///< among the columns of errors; the two that splines provide, too, come first
   double (*get)(const Local_structure_error_3<double>&) = nullptr;
   /// Returns the reference magnitude for relative errors. It does not vanish where a curvature merely changes sign.
   double (*size)(const Local_structure_3<double>&) = nullptr;
-  std::string_view name_of_size = {}; ///< as the program writes it; empty if no error is estimated
+  std::string_view name_of_size = {}; ///< as printed by the program; empty if no error is estimated
   double power_of_negligible = 0;     ///< of |K_e|, in negligible(); 0 if no error is negligible
 
-  /// Whether an error is estimated. With -fsanitize GCC 12 does not compare pointers to functions at compile time.
+  /// Whether an error is estimated. Tests the name because GCC 12 with -fsanitize cannot compare pointers to
+  /// functions at compile time.
   constexpr bool exists() const { return !name_of_size.empty(); }
 
-  /// Returns an error of an affine curvature that does not matter, or -1 if every error matters: 1e-9 of the size that
-  /// is natural beside K_e. A K that is zero is known to within this, but not to within any part of itself.
+  /// Returns the negligible error of an affine curvature, or -1 if no error is negligible: 1e-9 of the natural size
+  /// for that K_e. A K of zero can be known to within this error, but not to within a fraction of itself.
   double negligible(double euclidean_gaussian_curvature) const {
     if (power_of_negligible == 0) return -1;
     return 1e-9 * std::pow(std::abs(euclidean_gaussian_curvature), power_of_negligible);
   }
 
-  /// Whether a number is known to within a part of its size, or its error does not matter.
+  /// Whether a number is known to within a fraction of its size, or its error is negligible.
   bool is_known(const Local_structure_3<double>& structure, const Local_structure_error_3<double>& error,
                 double part) const {
     return get(error) <= part * size(structure) || get(error) <= negligible(structure.euclidean.gaussian_curvature);
@@ -141,10 +141,10 @@ struct Attribute_error {
 template <class FT>
 struct Attribute_row {
   std::string_view name;
-  std::array<std::string_view, 6> components; ///< their names in files; empty for a scalar, which is called `name`
+  std::array<std::string_view, 6> components; ///< names in files; empty for a scalar, whose column has the name `name`
   unsigned lists;                             ///< bits of `attribute_lists`
   int order; ///< of the derivatives of f that it needs; scalars of order 3 and more do not exist at parabolic points
-  /// Returns the component with the given number. It is null for an attribute that a sample does not have.
+  /// Returns the component with the given index. Null for an attribute that is not in a sample.
   FT (*get)(const Attribute_sample<FT>&, std::size_t component);
   Quantity quantity = {};
   Attribute_error error = {};
@@ -164,7 +164,7 @@ struct Attribute_row {
 
 } // namespace equiaffine
 
-// The numbers of which errors are called parts.
+// Reference magnitudes for relative errors.
 namespace equiaffine::internal {
 
 inline double affine_size(const Local_structure_3<double>& s) {
@@ -179,7 +179,7 @@ namespace equiaffine {
 
 // clang-format off
 
-/// The attributes after the metric: combinations of others, those of frames, and norms of gradients.
+/// The attributes after the metric: combinations of others, frames, and norms of gradients.
 template <class FT>
 inline constexpr auto later_attributes = [] {
   using namespace attribute_lists;
@@ -294,34 +294,34 @@ inline constexpr auto rows_with_error = [] {
   return rows;
 }();
 
-/// Returns the row of the attribute with that name, or null.
+/// Returns the row of the attribute, or null.
 constexpr const Attribute_row<double>* find_row(std::string_view name) {
   for (const auto& row : attribute_table<double>)
     if (row.name == name) return &row;
   return nullptr;
 }
 
-/// Returns the words for the scalar attribute with that name, or null if it has no label or is none of our attributes.
+/// Returns the words for the scalar attribute, or null if it has no label or is unknown.
 constexpr const Quantity* find_quantity(std::string_view name) {
   const auto* const row = find_row(name);
   return row && !row->quantity.label.empty() ? &row->quantity : nullptr;
 }
 
-/// Returns the rank of the attribute with that name: pages and pictures offer attributes with smaller ranks first.
+/// Returns the rank of the attribute: pages and pictures offer attributes with smaller ranks first.
 constexpr int rank_of_quantity(std::string_view name) {
   const Quantity* const quantity = find_quantity(name);
   return quantity ? quantity->rank : Quantity::unranked;
 }
 
-/// Returns whether numbers of that attribute do not exist where the Gaussian curvature is zero. On both sides of such a
-/// curve they grow without bound, unless they are zero.
+/// Returns whether the attribute does not exist where the Gaussian curvature is zero. On both sides of such a curve
+/// it grows without bound, unless it is zero.
 constexpr bool is_undefined_at_parabolic_points(std::string_view name) {
   return find_quantity(name) != nullptr && find_row(name)->order > 2;
 }
 
-/// Returns the difference below which two numbers of a column are equal up to rounding, on a surface whose box has that
-/// diagonal: 1e-9 in the surface's own unit of length, which is the accuracy promised for curvatures. Returns zero for
-/// a column that is none of our attributes, since nothing is known about it.
+/// Returns the difference below which two numbers of a column are equal up to rounding, on a surface with a bounding
+/// box of that diagonal: 1e-9 in the surface's own unit of length, the accuracy promised for curvatures. Returns 0
+/// for an unknown column.
 inline double rounding_of_quantity(std::string_view name, double diagonal) {
   const Quantity* const quantity = find_quantity(name);
   if (quantity == nullptr || !(diagonal > 0)) return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Columns of numbers become property maps: those that are given, or maps under names.
+// Writes columns of numbers to property maps: those that are given, or named maps.
 #ifndef EQUIAFFINE_ATTRIBUTES_INTERNAL_MAPS_OF_COLUMNS_H
 #define EQUIAFFINE_ATTRIBUTES_INTERNAL_MAPS_OF_COLUMNS_H
 
@@ -27,16 +27,16 @@ inline constexpr bool is_surface_mesh = false;
 template <class Point>
 inline constexpr bool is_surface_mesh<CGAL::Surface_mesh<Point>> = true;
 
-/// Does not compile for a surface mesh that cannot have the maps `v:NAME`.
+/// Fails to compile for a surface mesh that cannot have the maps `v:NAME`.
 template <class Mesh>
 constexpr void check_mesh_for_maps() {
   static_assert(
       std::is_same_v<typename CGAL::Kernel_traits<typename Mesh::Point>::Kernel::FT, double>,
-      "a CGAL::Surface_mesh gets maps v:NAME if its coordinates are doubles: give this one property maps, such "
-      "as parameters::vertex_affine_mean_curvature_map(map)");
+      "the maps v:NAME of a CGAL::Surface_mesh require coordinates of type double: give property maps, such as "
+      "parameters::vertex_affine_mean_curvature_map(map)");
 }
 
-/// The attributes for which a surface mesh gets maps: all that samples have.
+/// The attributes for which a surface mesh gets maps: all those of samples.
 inline Attribute_selection selection_of_named_maps(bool has_faces) {
   Attribute_selection selection;
   for (const auto& row : attribute_table<double>)
@@ -46,12 +46,12 @@ inline Attribute_selection selection_of_named_maps(bool has_faces) {
   return selection;
 }
 
-/// The areas around the vertices of a surface mesh, whose points are given in their order; nothing if it has no faces.
+/// The areas around the vertices of a surface mesh, given their points; empty if it has no faces.
 template <class Mesh, class Points>
 std::vector<double> areas_of_surface_mesh(const Mesh& mesh, const Points& points) {
   if (mesh.number_of_faces() == 0) return {};
   std::vector<double> areas(points.size(), 0.);
-  std::vector<std::size_t> number_of(mesh.num_vertices()), corners; // with removed ones
+  std::vector<std::size_t> number_of(mesh.num_vertices()), corners; // including removed ones
   for (std::size_t n = 0; const auto v : mesh.vertices()) number_of[v] = n++;
   for (const auto f : mesh.faces()) {
     corners.clear();
@@ -61,7 +61,7 @@ std::vector<double> areas_of_surface_mesh(const Mesh& mesh, const Points& points
   return areas;
 }
 
-/// The attributes of the maps that are given.
+/// The attributes of the given maps.
 template <class Parameters, class... Tags>
 Attribute_selection selection_of_given_maps(Tag_list<Tags...>) {
   Attribute_selection selection;
@@ -73,9 +73,9 @@ Attribute_selection selection_of_given_maps(Tag_list<Tags...>) {
   return selection;
 }
 
-// CGAL::Surface_mesh and CGAL::Point_set_3 keep property maps under names.
+// CGAL::Surface_mesh and CGAL::Point_set_3 have named property maps.
 
-/// The types of numbers that maps under names are looked for with.
+/// The number types that named maps are searched for.
 using Numbers_of_maps = std::tuple<double, float, int, unsigned, long, unsigned long, long long, unsigned long long,
                                    short, unsigned short, char, signed char, unsigned char, bool>;
 
@@ -88,7 +88,7 @@ std::optional<Map> optional_map(const std::optional<Map>& map) { // of CGAL 6
   return map;
 }
 
-/// The named maps of a container that has none.
+/// The primary template is for containers without named maps.
 template <class Container>
 struct Named_maps {
   static constexpr bool exist = false;
@@ -137,7 +137,7 @@ struct Named_maps<Points> {
   }
 };
 
-/// The names of the columns in files that the map with a tag has.
+/// The names in files of the columns for the map with a tag.
 template <class Tag>
 auto names_of_columns(Tag) {
   std::array<std::string, columns_of<Tag>.size()> names;
@@ -148,13 +148,13 @@ auto names_of_columns(Tag) {
   return names;
 }
 
-/// The names of the columns of a vector with a name.
+/// The names of the columns of a vector.
 inline std::array<std::string, 3> columns_of_vector(const std::string& name) {
   if (name == "normal") return {"nx", "ny", "nz"};
   return {name + "_x", name + "_y", name + "_z"};
 }
 
-/// Puts into a map what `value_in(row)` returns, for the elements in their order.
+/// Writes `value_in(row)` to a map for the elements in their order.
 template <class Map, class Elements, class Value_in>
 void fill_map(const Map& map, Elements&& elements, const Value_in& value_in) {
   check_map<Map>();
@@ -162,7 +162,7 @@ void fill_map(const Map& map, Elements&& elements, const Value_in& value_in) {
   for (auto&& element : elements) put_value(map, element, value_in(row++));
 }
 
-/// Fills the maps that are given. `column(name)` returns the column of a name.
+/// Fills the given maps. `column(name)` returns the column of a name.
 template <class Elements, class Parameters, class Column_of, class... Tags>
 void fill_given_maps(Elements&& elements, const Parameters& parameters, const Column_of& column, Tag_list<Tags...>) {
   const auto fill = [&]<class Tag>(Tag tag) {
@@ -186,7 +186,7 @@ void fill_status_map(Elements&& elements, const Parameters& parameters, const st
     fill_map(given_parameter<Vertex_status_tag>(parameters), elements, [&](std::size_t row) { return status[row]; });
 }
 
-/// The name of the vector whose components are the columns from position c on, or an empty text.
+/// The name of the vector whose components are the columns from position c on, or an empty string.
 inline std::string vector_at(const std::vector<Vertex_attributes::Column>& columns, std::size_t c) {
   if (c + 3 > columns.size()) return {};
   const std::string& first = columns[c].name;
@@ -195,7 +195,7 @@ inline std::string vector_at(const std::vector<Vertex_attributes::Column>& colum
   return columns[c + 1].name == names[1] && columns[c + 2].name == names[2] ? name : "";
 }
 
-/// Fills the map of a name, of whatever numbers it has, or adds one of doubles.
+/// Fills the map of a name, whatever its number type, or adds one of doubles.
 template <class Container, class Elements, class Value_in, class... T>
 void fill_numbers(Container& container, const std::string& key, const Elements& elements, const Value_in& value_in,
                   std::tuple<T...>) {
@@ -208,8 +208,8 @@ void fill_numbers(Container& container, const std::string& key, const Elements& 
   if (!(fill_existing(T()) || ...)) fill_map(Maps::template add<double>(container, key), elements, value_in);
 }
 
-/// Adds a map for every column to a container that has maps under names, and one for every three that are a vector.
-/// Frees the memory of each column when its map is filled.
+/// Adds a named map to a container for every column, and one for every three columns that are a vector. Frees the
+/// memory of each column when its map is filled.
 template <class Container, class Elements>
 void add_named_maps(Container& container, Elements&& elements, Vertex_attributes&& attributes) {
   using Maps = Named_maps<Container>;

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <type_traits>
 
-// The values that annotate() and annotate_by_fit() put into the property maps that they are given.
+// The values that annotate() and annotate_by_fit() write to property maps.
 namespace equiaffine::internal {
 
 template <class FT>
@@ -26,14 +26,14 @@ const Local_structure_3<FT>& structure_in(const Fitted_structure_3<FT>& s) {
   return s.structure;
 }
 
-/// The principal curvatures with the sign of CGAL.
+/// The principal curvatures with CGAL's sign.
 template <class FT>
 struct Principal_curvatures {
   FT least, greatest;
   std::array<FT, 3> direction_of_least, direction_of_greatest;
 };
 
-// The attributes in the map with a tag.
+// The attribute for the map with a tag.
 constexpr std::string_view attribute_of(Vertex_unit_normal_tag) { return "normal"; }
 constexpr std::string_view attribute_of(Vertex_mean_curvature_tag) { return "mean_curvature"; }
 constexpr std::string_view attribute_of(Vertex_Gaussian_curvature_tag) { return "gaussian_curvature"; }
@@ -59,7 +59,7 @@ inline constexpr bool is_error_tag = false;
 template <class Tag>
 inline constexpr bool is_error_tag<Error_tag<Tag>> = true;
 
-/// The columns whose numbers make the value in the map with a tag. For an error it is a column of the attribute.
+/// The columns for the value in the map with a tag. For an error, a column of the attribute.
 template <class Tag>
 inline constexpr auto columns_of = [] {
   constexpr auto size_of = [](std::string_view name) { return is_error_tag<Tag> ? 1 : find_row(name)->size(); };
@@ -76,7 +76,7 @@ inline constexpr auto columns_of = [] {
   return columns;
 }();
 
-/// Mean curvatures in maps of CGAL have the opposite sign.
+/// Mean curvatures in CGAL's maps have the opposite sign.
 template <class Tag>
 inline constexpr int sign_in_maps = std::is_same_v<Tag, Vertex_mean_curvature_tag> ? -1 : 1;
 
@@ -113,8 +113,8 @@ struct Tag_list {};
 template <class... First, class... Second>
 Tag_list<First..., Second...> concatenated(Tag_list<First...>, Tag_list<Second...>);
 
-/// The maps of one attribute, all maps of numbers that annotate() fills, all of its maps, and those that fits have
-/// beside them.
+/// In this order: the maps of one attribute, all maps of numbers that annotate() fills, all its maps, and the
+/// additional maps of fits.
 using Attribute_tags =
     Tag_list<Vertex_unit_normal_tag, Vertex_mean_curvature_tag, Vertex_Gaussian_curvature_tag,
              Vertex_affine_mean_curvature_tag, Vertex_affine_Gaussian_curvature_tag, Vertex_affine_normal_tag,
@@ -126,7 +126,7 @@ using Error_tags = Tag_list<Vertex_affine_mean_curvature_error_tag, Vertex_affin
                             Vertex_affine_area_density_error_tag, Vertex_mean_curvature_error_tag,
                             Vertex_Gaussian_curvature_error_tag, Vertex_unit_normal_error_tag>;
 
-/// Refuses named parameters that are neither in the list nor among the other tags.
+/// Rejects named parameters that are neither in the list nor among the other tags.
 template <class Parameters, class... OtherTags, class... Tags>
 constexpr void check_parameters_of_maps(Tag_list<Tags...>) {
   check_parameters<Parameters, OtherTags..., Tags...>();
@@ -141,11 +141,11 @@ constexpr bool has_maps(Tag_list<Tags...>) {
   return (has_parameter<Tags, Parameters> || ...);
 }
 
-/// A vector of CGAL, or an array.
+/// Converts to a vector of CGAL, or to an array.
 template <class Vector, class FT>
 Vector vector_of(const std::array<FT, 3>& v) {
   static_assert(!std::is_arithmetic_v<Vector>,
-                "this property map has numbers, and the value is a vector: give a map of "
+                "this property map has numbers, but the value is a vector: give a map of "
                 "CGAL's Vector_3, or of std::array");
   if constexpr (requires { typename Vector::value_type; }) {
     using Number = typename Vector::value_type;
@@ -155,16 +155,17 @@ Vector vector_of(const std::array<FT, 3>& v) {
 
 template <class Map>
 constexpr void check_map() {
-  static_assert(Property_map<Map>, "this is no property map: boost::make_assoc_property_map() makes one of a std::map, "
-                                   "and a CGAL::Surface_mesh gives its own");
+  static_assert(Property_map<Map>, "this is not a property map: make one with boost::make_assoc_property_map() from a "
+                                   "std::map, or use one of a CGAL::Surface_mesh");
 }
 
-// The key may be an element that has the value in it.
+// The key may be an element that contains the value.
 template <class Map, class Key, class Value>
 void put_value(const Map& map, Key& key, const Value& value) {
   using Kept = typename boost::property_traits<Map>::value_type;
   static_assert(std::is_constructible_v<Kept, const Value&>,
-                "this property map has values of another kind, such as vectors in the place of numbers");
+                "this property map has another value type, such as vectors instead of numbers: give a map of the "
+                "right type");
   put(map, key, Kept(value));
 }
 template <class Map, class Key, class FT>
@@ -187,7 +188,7 @@ void put_value(const Map& map, Key& key, const Principal_curvatures<FT>& value) 
   put(map, key, result);
 }
 
-/// Puts what is known of a vertex into those of the maps in the list that are given.
+/// Writes the structure of a vertex to those maps of the list that are given.
 template <class Parameters, class Key, class S, class... Tags>
 void put_structure(const Parameters& parameters, Key& key, const S& s, Tag_list<Tags...>) {
   const auto put_one = [&]<class Tag>(Tag tag) {
@@ -200,7 +201,7 @@ void put_structure(const Parameters& parameters, Key& key, const S& s, Tag_list<
   (put_one(Tags()), ...);
 }
 
-/// The status that a sampler gave, if the map of statuses can be read.
+/// The status assigned by a sampler, if the map of statuses is readable.
 template <class Parameters, class Key>
 Point_status status_before([[maybe_unused]] const Parameters& parameters, [[maybe_unused]] const Key& key) {
   if constexpr (has_parameter<Vertex_status_tag, Parameters>) {

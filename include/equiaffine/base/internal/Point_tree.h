@@ -17,7 +17,7 @@
 
 namespace equiaffine {
 
-/// A tree of vectors, each with an index, that finds the nearest ones (Boost's R-tree).
+/// A spatial index of vectors with their indices, for nearest-neighbor queries (Boost's R-tree).
 template <int Dimension, class Index = std::size_t>
 class Point_tree {
 public:
@@ -29,16 +29,16 @@ public:
 
   Point_tree() = default;
 
-  /// Takes vectors, whose indices are their places.
+  /// Inserts the vectors; each has its position as index.
   explicit Point_tree(const std::vector<Vector>& vectors)
       : tree_(values(vectors.size(), [&](std::size_t i) { return Value(tree_point(vectors[i]), Index(i)); })) {}
 
-  /// Takes the vectors f(i), which keep their indices i.
+  /// Inserts the vector f(i) for every i in `indices`, with index i.
   template <class F>
   Point_tree(const std::vector<Index>& indices, F f)
       : tree_(values(indices.size(), [&](std::size_t n) { return Value(tree_point(f(indices[n])), indices[n]); })) {}
 
-  /// Returns the nearest `count` vectors, the nearest one first.
+  /// Returns the `count` nearest vectors, nearest first.
   std::vector<Neighbor> neighbors(const Vector& x, std::size_t count) const {
     const Point p = tree_point(x);
     std::vector<Neighbor> result;
@@ -48,14 +48,14 @@ public:
     return result;
   }
 
-  /// Returns their indices alone.
+  /// Returns the indices of the `count` nearest vectors, nearest first.
   std::vector<Index> nearest(const Vector& x, std::size_t count) const {
     std::vector<Index> result;
     for_each_nearest(tree_point(x), count, [&](const Value& value) { result.push_back(value.second); });
     return result;
   }
 
-  /// Calls f(i) for every vector i in the cube about `center`.
+  /// Calls f(i) for every vector i in the cube with the given center.
   template <class F>
   void for_each_in_cube(const Vector& center, double half_width, F f) const {
     const Vector half = Vector::Constant(half_width);
@@ -69,7 +69,6 @@ private:
   using Value = std::pair<Point, Index>;
   using Tree = boost::geometry::index::rtree<Value, boost::geometry::index::linear<8>>;
 
-  /// The values make(0), make(1), ... .
   template <class Make>
   static std::vector<Value> values(std::size_t count, const Make& make) {
     std::vector<Value> result;

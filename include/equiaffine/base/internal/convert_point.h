@@ -6,7 +6,7 @@
 
 namespace equiaffine {
 
-/// The point of another kernel with the same coordinates, to the precision of double.
+/// The point of another kernel with the same coordinates, rounded to double.
 template <class Kernel, class Point_3>
 typename Kernel::Point_3 convert_point(const Point_3& p) {
   return typename Kernel::Point_3(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));

@@ -19,10 +19,10 @@
 
 namespace equiaffine::internal {
 
-/// Finds the end of the longest beginning of a text that std::from_chars takes for a floating-point number.
+/// Finds the longest prefix of a text that std::from_chars accepts as a floating-point number.
 class Number_text {
 public:
-  /// The length of that beginning, which is 0 if the text begins with no number.
+  /// The length of that prefix; 0 if the text does not start with a number.
   static std::size_t length(std::string_view text) {
     Number_text number(text);
     number.skip("-");
@@ -33,7 +33,7 @@ public:
 private:
   explicit Number_text(std::string_view text) : text_(text) {}
 
-  /// Returns where an infinity or a NaN at the position ends, or 0.
+  /// Skips an infinity or a NaN at the current position. Returns the position after it, or 0 if there is none.
   std::size_t skip_word() {
     if (skip("infinity") || skip("inf")) return position_;
     if (!skip("nan")) return 0;
@@ -44,7 +44,7 @@ private:
     return skip(")") ? position_ : end;
   }
 
-  /// Returns where digits, with a point and an exponent if they have one, end, or 0.
+  /// Skips digits with an optional point and exponent. Returns the position after them, or 0 if there are none.
   std::size_t skip_decimal() {
     std::size_t digits = skip_digits();
     if (skip(".")) digits += skip_digits();
@@ -61,7 +61,7 @@ private:
     return position_ - start;
   }
 
-  /// Skips a word, which is given in lower case, in upper or lower case if it stands at the position.
+  /// Skips a lower-case `word` at the current position, ignoring case. Returns whether it was there.
   bool skip(std::string_view word) {
     if (text_.size() - position_ < word.size()) return false;
     for (std::size_t i = 0; i < word.size(); ++i) {
@@ -79,7 +79,7 @@ private:
   std::size_t position_ = 0;
 };
 
-/// Does what std::from_chars does, by strtod of the C library in the classic locale.
+/// Implements std::from_chars by the C library's strtod in the classic locale.
 template <std::floating_point Number>
 std::from_chars_result from_chars_by_strtod(const char* first, const char* last, Number& value) {
   static const locale_t classic = newlocale(LC_ALL_MASK, "C", nullptr);
@@ -98,7 +98,7 @@ std::from_chars_result from_chars_by_strtod(const char* first, const char* last,
   return {end, std::errc()};
 }
 
-/// std::from_chars, which libc++ has for integers only.
+/// std::from_chars; some versions of libc++ provide it for integers only.
 template <class Number>
 std::from_chars_result from_chars(const char* first, const char* last, Number& value) {
 #ifndef __cpp_lib_to_chars

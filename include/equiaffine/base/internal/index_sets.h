@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sets of numbers below n.
+// Disjoint sets and random subsets of the integers 0, ..., n - 1.
 #ifndef EQUIAFFINE_BASE_INTERNAL_INDEX_SETS_H
 #define EQUIAFFINE_BASE_INTERNAL_INDEX_SETS_H
 
@@ -12,20 +12,20 @@
 
 namespace equiaffine {
 
-/// A partition of the numbers below n into sets that can be united, stored as a forest with path halving (Tarjan, van
+/// A partition of 0, ..., n - 1 into sets that can be merged, stored as a forest with path halving (Tarjan, van
 /// Leeuwen: Worst-case analysis of set union algorithms, 1984).
 template <class Index>
 class Disjoint_sets {
 public:
   explicit Disjoint_sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), Index(0)); }
 
-  /// The least number of the set of `a`, which stands for the set.
+  /// The smallest element of the set of `a`; it represents the set.
   Index find(Index a) {
     while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
     return a;
   }
 
-  /// Unites the sets of `a` and `b`. Returns false if they are the same set already.
+  /// Merges the sets of `a` and `b`. Returns false if they already were the same set.
   bool unite(Index a, Index b) {
     a = find(a);
     b = find(b);
@@ -37,7 +37,7 @@ private:
   std::vector<Index> parent_;
 };
 
-/// Returns `count` of the numbers below `size`, or all of them, in random order, which `seed` decides.
+/// Returns min(count, size) distinct integers below `size` in random order, determined by `seed`.
 template <class Index = std::size_t>
 std::vector<Index> random_subset(std::size_t size, std::size_t count, unsigned seed) {
   std::vector<Index> indices(size);

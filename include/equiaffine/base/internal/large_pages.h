@@ -13,9 +13,9 @@ namespace equiaffine {
 
 inline constexpr std::size_t large_page = std::size_t(1) << 21;
 
-/// Asks for large pages where memory is written for the first time: the first touch of every small page costs more than
-/// what Marching Cubes or a spline computes for it. This is advice only: a system that ignores it makes programs
-/// slower, not wrong.
+/// Requests large pages for memory that is about to be written for the first time: the first access to each small page
+/// costs more than Marching Cubes or a spline needs to compute its contents. If the system ignores the request,
+/// programs are slower but correct.
 inline void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #ifdef __linux__
   const auto begin = reinterpret_cast<std::uintptr_t>(memory);
@@ -25,7 +25,7 @@ inline void advise_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] s
 #endif
 }
 
-/// Gives an empty vector n elements, in large pages where there are some.
+/// Resizes an empty vector to n elements, in large pages if available.
 template <class Vector>
 void resize_with_large_pages(Vector& vector, std::size_t n) {
   vector.reserve(n);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The closed list of named parameters: a new one is one function here, and its tag in named_parameters.h. Functions
-// that take them have tables of types, defaults and meanings.
+// All named parameters. To add one, add a function here and its tag in named_parameters.h. The functions that take them
+// document types, defaults and meanings.
 #ifndef EQUIAFFINE_BASE_INTERNAL_NAMED_PARAMETER_LIST_H
 #define EQUIAFFINE_BASE_INTERNAL_NAMED_PARAMETER_LIST_H
 
@@ -11,10 +11,10 @@
     return internal::add_parameter<internal::TAG>(map, GIVEN);                                                         \
   }
 
-/// Defines one function per named parameter. A free function begins a chain of parameters, a member continues one:
-/// `GIVEN` is the chain before, and `CONST` is `const` for members and nothing for free functions.
+/// Defines one function per named parameter. A free function starts a chain of parameters, a member extends one:
+/// `GIVEN` is the chain so far, and `CONST` is `const` for members and empty for free functions.
 #define EQUIAFFINE_NAMED_PARAMETERS(CONST, GIVEN)                                                                      \
-  /** A range of Polyline_3 on the surface that the edges of the mesh follow. */                                       \
+  /** A range of Polyline_3 on the surface, which become edges of the mesh. */                                         \
   template <class Polylines>                                                                                           \
   auto feature_curves(const Polylines& curves) CONST {                                                                 \
     return internal::add_parameter<internal::Feature_curves_tag>(curves, GIVEN);                                       \
@@ -32,13 +32,13 @@
     return internal::add_parameter<internal::Point_tag>(map, GIVEN);                                                   \
   }                                                                                                                    \
                                                                                                                        \
-  /** A property map from the elements of a range to the normals of the surface there. */                              \
+  /** A property map from the elements of a range to normals of the surface. */                                        \
   template <class Map>                                                                                                 \
   auto normal_map(const Map& map) CONST {                                                                              \
     return internal::add_parameter<internal::Normal_tag>(map, GIVEN);                                                  \
   }                                                                                                                    \
                                                                                                                        \
-  /** A writable property map from the edges of a mesh to bool: the edges that a remesh keeps. */                      \
+  /** A writable property map from the edges of a mesh to bool: edges to preserve in remeshing. */                     \
   template <class Map>                                                                                                 \
   auto edge_is_constrained_map(const Map& map) CONST {                                                                 \
     return internal::add_parameter<internal::Edge_is_constrained_tag>(map, GIVEN);                                     \
@@ -50,40 +50,40 @@
     return internal::add_parameter<internal::Vertex_outcome_tag>(map, GIVEN);                                          \
   }                                                                                                                    \
                                                                                                                        \
-  /** A property map from the vertices of a mesh to normals there, which fits read. */                                 \
+  /** A property map from the vertices of a mesh to normals, an input of fits. */                                      \
   template <class Map>                                                                                                 \
   auto vertex_normal_map(const Map& map) CONST {                                                                       \
     return internal::add_parameter<internal::Vertex_normal_tag>(map, GIVEN);                                           \
   }                                                                                                                    \
                                                                                                                        \
-  /** A kernel; nothing depends on it, since coordinates are doubles. */                                               \
+  /** Accepted for compatibility with CGAL; ignored. */                                                                \
   template <class Traits>                                                                                              \
   auto geom_traits(const Traits& traits) CONST {                                                                       \
     return internal::add_parameter<internal::Geom_traits_tag>(traits, GIVEN);                                          \
   }                                                                                                                    \
                                                                                                                        \
-  /** Lines of text, a range of std::string, that a file keeps beside the numbers. */                                  \
+  /** Comments to store in a file, a range of std::string. */                                                          \
   template <class Lines>                                                                                               \
   auto comments(const Lines& lines) CONST {                                                                            \
     return internal::add_parameter<internal::Comments_tag>(lines, GIVEN);                                              \
   }                                                                                                                    \
                                                                                                                        \
-  /** Whether to print; this library never does. */                                                                    \
+  /** Accepted for compatibility with CGAL; ignored. */                                                                \
   inline auto verbose(bool is_wanted) CONST {                                                                          \
     return internal::add_parameter<internal::Verbose_tag>(is_wanted, GIVEN);                                           \
   }                                                                                                                    \
                                                                                                                        \
-  /** Property map of Point_status, which is read, too: a vertex that is UNCONVERGED stays so. */                      \
+  /** In/out property map of Point_status: UNCONVERGED vertices keep that status. */                                   \
   EQUIAFFINE_VERTEX_MAP(vertex_status_map, Vertex_status_tag, CONST, GIVEN)                                            \
-  /** Writable property map of the Local_structure_3, or with fits the Fitted_structure_3. */                          \
+  /** Writable property map of Local_structure_3, or of Fitted_structure_3 for fits. */                                \
   EQUIAFFINE_VERTEX_MAP(vertex_structure_map, Vertex_structure_tag, CONST, GIVEN)                                      \
-  /** Writable property map of the unit normal n; `vertex_normal_map` is read. */                                      \
+  /** Writable property map of the unit normal n (`vertex_normal_map` is an input). */                                 \
   EQUIAFFINE_VERTEX_MAP(vertex_unit_normal_map, Vertex_unit_normal_tag, CONST, GIVEN)                                  \
-  /** Writable property map of the Euclidean mean curvature with the sign of CGAL: -H_e. */                            \
+  /** Writable property map of the Euclidean mean curvature in CGAL's sign convention: -H_e. */                        \
   EQUIAFFINE_VERTEX_MAP(vertex_mean_curvature_map, Vertex_mean_curvature_tag, CONST, GIVEN)                            \
   /** Writable property map of the Euclidean Gaussian curvature K_e. */                                                \
   EQUIAFFINE_VERTEX_MAP(vertex_Gaussian_curvature_map, Vertex_Gaussian_curvature_tag, CONST, GIVEN)                    \
-  /** Writable property map of CGAL's Principal_curvatures_and_directions, with the sign of CGAL. */                   \
+  /** Writable property map of CGAL's Principal_curvatures_and_directions, in CGAL's sign. */                          \
   EQUIAFFINE_VERTEX_MAP(vertex_principal_curvatures_and_directions_map, Vertex_principal_curvatures_tag, CONST, GIVEN) \
   /** Writable property map of the affine mean curvature H. */                                                         \
   EQUIAFFINE_VERTEX_MAP(vertex_affine_mean_curvature_map, Vertex_affine_mean_curvature_tag, CONST, GIVEN)              \
@@ -95,7 +95,7 @@
   EQUIAFFINE_VERTEX_MAP(vertex_conormal_map, Vertex_conormal_tag, CONST, GIVEN)                                        \
   /** Writable property map of the Pick invariant J. */                                                                \
   EQUIAFFINE_VERTEX_MAP(vertex_pick_invariant_map, Vertex_pick_invariant_tag, CONST, GIVEN)                            \
-  /** Writable property map of the affine metric, a std::array of xx xy xz yy yz zz. */                                \
+  /** Writable property map of the affine metric, a std::array xx xy xz yy yz zz. */                                   \
   EQUIAFFINE_VERTEX_MAP(vertex_affine_metric_map, Vertex_affine_metric_tag, CONST, GIVEN)                              \
   /** Writable property map of the affine area per Euclidean area. */                                                  \
   EQUIAFFINE_VERTEX_MAP(vertex_affine_area_density_map, Vertex_affine_area_density_tag, CONST, GIVEN)                  \

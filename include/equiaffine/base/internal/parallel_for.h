@@ -18,20 +18,20 @@
 
 namespace equiaffine {
 
-/// Whether a tag of CGAL asks for threads. Does not compile if it does and there are none, as in CGAL.
+/// Whether a CGAL tag requests threads. As in CGAL, fails to compile if TBB is missing for CGAL::Parallel_tag.
 template <class ConcurrencyTag>
 constexpr bool runs_in_threads() {
   constexpr bool result = std::is_convertible_v<ConcurrencyTag, CGAL::Parallel_tag>;
 #ifndef CGAL_LINKED_WITH_TBB
-  static_assert(!result, "CGAL::Parallel_tag needs TBB, and CGAL_LINKED_WITH_TBB is not defined: link to TBB by CGAL's "
-                         "target CGAL::TBB_support, or write CGAL::Parallel_if_available_tag");
+  static_assert(!result, "CGAL::Parallel_tag needs TBB, but CGAL_LINKED_WITH_TBB is not defined: link to CGAL's target "
+                         "CGAL::TBB_support, or use CGAL::Parallel_if_available_tag");
 #endif
   return result;
 }
 
-/// Calls f(i) for every i in [begin, end), in any order: on the threads of TBB for CGAL::Parallel_tag, else one after
-/// the other. Ranges of `grain` calls or fewer are not split between threads. A Progress_observer
-/// of the calling thread sees the loop.
+/// Calls f(i) for every i in [begin, end), in any order: on TBB's threads for CGAL::Parallel_tag, otherwise
+/// sequentially. Ranges of at most `grain` calls are not split between threads. A Progress_observer of the calling
+/// thread observes the loop.
 template <class ConcurrencyTag, class F>
 void parallel_for(std::size_t begin, std::size_t end, F f, [[maybe_unused]] std::size_t grain = 1) {
   const Progress_observer::Loop loop(begin < end ? end - begin : 0);
@@ -47,7 +47,7 @@ void parallel_for(std::size_t begin, std::size_t end, F f, [[maybe_unused]] std:
   }
 }
 
-/// The same, on threads if `in_threads`.
+/// The same, with threads if `in_threads`.
 template <class F>
 void parallel_for([[maybe_unused]] bool in_threads, std::size_t begin, std::size_t end, F f, std::size_t grain = 1) {
 #ifdef CGAL_LINKED_WITH_TBB
@@ -56,8 +56,7 @@ void parallel_for([[maybe_unused]] bool in_threads, std::size_t begin, std::size
   parallel_for<CGAL::Sequential_tag>(begin, end, std::move(f), grain);
 }
 
-/// Calls f() and returns what it returns. Its loops for CGAL::Parallel_if_available_tag use threads only if
-/// `in_threads`.
+/// Returns f(). Its loops with CGAL::Parallel_if_available_tag use threads only if `in_threads`.
 template <class F>
 auto on_threads_if([[maybe_unused]] bool in_threads, const F& f) {
 #ifdef CGAL_LINKED_WITH_TBB
@@ -66,8 +65,8 @@ auto on_threads_if([[maybe_unused]] bool in_threads, const F& f) {
   return f();
 }
 
-/// Calls f(). While a loop of f waits for other threads, the calling thread does no work of other loops, which could
-/// need what f is about to make.
+/// Calls f(). Keeps the calling thread from stealing work of other loops while a loop of f waits: that work might need
+/// the result of f.
 template <class ConcurrencyTag, class F>
 void isolated(const F& f) {
   if constexpr (runs_in_threads<ConcurrencyTag>()) {

@@ -11,7 +11,7 @@
 
 namespace equiaffine {
 
-/// The number with index n in ascending order. \pre n < values.size()
+/// The element with index n in ascending order. \pre n < values.size()
 inline double nth_smallest(std::vector<double> values, std::size_t n) {
   CGAL_precondition(n < values.size());
   const auto nth = values.begin() + static_cast<std::ptrdiff_t>(n);
@@ -19,13 +19,13 @@ inline double nth_smallest(std::vector<double> values, std::size_t n) {
   return *nth;
 }
 
-/// The number in the middle, of two such the larger one. \pre there are numbers.
+/// The median; for an even count the larger of the two middle elements. \pre not empty
 inline double median_of(std::vector<double> values) {
   const std::size_t middle = values.size() / 2;
   return nth_smallest(std::move(values), middle);
 }
 
-/// The `percent`-quantile of ascending numbers, linear between them. \pre there are numbers.
+/// The `percent`-quantile of ascending numbers, with linear interpolation. \pre not empty
 inline double quantile_of_sorted(const std::vector<double>& sorted, double percent) {
   CGAL_precondition(!sorted.empty() && percent >= 0 && percent <= 100);
   const double rank = percent / 100 * double(sorted.size() - 1);
@@ -34,7 +34,7 @@ inline double quantile_of_sorted(const std::vector<double>& sorted, double perce
   return sorted[below] + (rank - double(below)) * (sorted[below + 1] - sorted[below]);
 }
 
-/// The same of numbers in any order, which changes.
+/// The same for unsorted numbers, which are reordered.
 inline double quantile(std::vector<double>& values, double percent) {
   CGAL_precondition(!values.empty() && percent >= 0 && percent <= 100);
   const double rank = percent / 100 * double(values.size() - 1);

@@ -14,26 +14,26 @@
 
 namespace equiaffine {
 
-/// Points with distances that they keep from each other, in hashed grids, one for each power of two of the distance.
-/// Insertion takes constant time; a query takes time in proportion to the number of those powers.
+/// Points with a minimum distance to each other, in hashed grids, one for each power of two of the distance.
+/// Insertion takes constant time; a query takes time proportional to the number of grids.
 template <class Point_3, class Vector_3>
 class Seed_grid_3 {
 public:
   struct Seed {
     Point_3 point;
-    Vector_3 normal; // is zero at a singular point
+    Vector_3 normal; // zero at a singular point
     double spacing;
-    bool is_fixed = false; // if true, denser seeds keep its spacing, too
+    bool is_fixed = false; // if true, seeds with a smaller spacing also keep its spacing
   };
 
   const std::vector<Seed>& seeds() const { return seeds_; }
 
-  /// Whether a seed is nearer to the candidate than the smaller one of their spacings, while their normals form no
-  /// obtuse angle: the two sides of a thin part of a surface have seeds of their own.
+  /// Whether a seed is closer to the candidate than the smaller one of their spacings and their normals do not form
+  /// an obtuse angle: the two sides of a thin part of a surface have separate seeds.
   bool is_crowded(const Seed& candidate) {
     if (latest_ < seeds_.size() && is_near(seeds_[latest_], candidate)) return true;
     for (const int level : levels_) {
-      const auto cell = cell_of(candidate.point, level, -0.5); // the spacing of seeds is less than half a side
+      const auto cell = cell_of(candidate.point, level, -0.5); // the spacing of seeds is less than half the cell size
       for (std::int64_t k = 0; k <= 1; ++k)
         for (std::int64_t j = 0; j <= 1; ++j)
           for (std::int64_t i = 0; i <= 1; ++i)
@@ -48,7 +48,7 @@ public:
 
   /// Whether there is a seed in a box. Seeds whose spacing is below about 1/8 of the box are ignored.
   bool has_seed_in(const CGAL::Bbox_3& box) const {
-    constexpr double most_cells = 8; // so many are visited along an axis
+    constexpr double most_cells = 8; // the maximum number of cells to visit along an axis
     for (const int level : levels_) {
       if (std::ldexp(most_cells, level - 1) < std::max({box.x_span(), box.y_span(), box.z_span()})) continue;
       const auto first = cell_of({box.xmin(), box.ymin(), box.zmin()}, level);
@@ -80,8 +80,8 @@ private:
     return (seed.point - candidate.point).squared_length() < spacing * spacing && seed.normal * candidate.normal >= 0;
   }
 
-  /// The level of a seed: the smallest one whose cells, with the side 2^level, are larger than twice its spacing, so
-  /// that a ball of that radius meets two cells along each axis at most.
+  /// The level of a seed: the lowest one whose cells, of side 2^level, are larger than twice its spacing, so that a
+  /// ball of that radius meets at most two cells along each axis.
   static int level_of(const Seed& seed) { return std::ilogb(seed.spacing) + 2; }
 
   /// The cell of a level that contains p, shifted along all axes by `shift` sides of a cell.
@@ -110,9 +110,8 @@ private:
   }
 
   std::vector<Seed> seeds_;
-  std::uint32_t latest_ =
-      none;                 // the seed that the latest crowded candidate was near; the next one is often near it, too
-  std::vector<int> levels_; // the levels that seeds have
+  std::uint32_t latest_ = none; // the seed near the latest crowded candidate, which often is near the next one, too
+  std::vector<int> levels_;     // the levels of the seeds
   std::vector<std::uint32_t> heads_ = std::vector<std::uint32_t>(1024, none); // first seed of a bucket
   std::vector<std::uint32_t> next_;                                           // next seed of the same bucket, per seed
 };

@@ -17,11 +17,11 @@
 
 namespace equiaffine::internal {
 
-/// Computes the places of the cells of an octree. The root, at level 0, is a cube that contains a box and has its lower
-/// corner in common with it. The cells of level n have sides 2^n times smaller, and are cut off where the box ends.
+/// Computes the boxes of the cells of an octree. The root, at level 0, is a cube that contains a box and shares its
+/// lower corner. The cells of level n have sides 2^n times smaller and are clipped to the box.
 class Octree_3 {
 public:
-  using Position = std::array<std::uint32_t, 3>; ///< number of the cell of its level along x, y and z
+  using Position = std::array<std::uint32_t, 3>; ///< index of the cell in its level along x, y, and z
 
   explicit Octree_3(const CGAL::Bbox_3& box) : box_(box), side_(std::max({box.x_span(), box.y_span(), box.z_span()})) {}
 
@@ -34,8 +34,7 @@ public:
     return CGAL::Bbox_3(at(0, p[0]), at(1, p[1]), at(2, p[2]), at(0, p[0] + 1), at(1, p[1] + 1), at(2, p[2] + 1));
   }
 
-  /// Calls visit(position) for the children, on the next level, of a cell of a level; those outside of the box are left
-  /// out.
+  /// Calls visit(position) for the children of a cell of the given level, except those outside the box.
   template <class Visit>
   void for_each_child(const Position& parent, int level, const Visit& visit) const {
     const double h = side(level) / 2;
@@ -55,8 +54,8 @@ private:
   const double side_;
 };
 
-/// Whether any two gradients that `jet` bounds have projections to the plane or line of some axes that form an acute
-/// angle.
+/// Whether any two gradients in the bounds of `jet` form an acute angle after projection to the plane or line of the
+/// given axes.
 inline bool has_acute_gradients(const Jet_3<Interval, 1>& jet, const std::array<bool, 3>& axes) {
   double largest = 0;
   for (std::size_t a = 0; a < 3; ++a) largest = std::max(largest, abs(jet.coefficients()[1 + a]).upper());
@@ -64,18 +63,18 @@ inline bool has_acute_gradients(const Jet_3<Interval, 1>& jet, const std::array<
   const Interval scale(std::ldexp(1.0, -std::ilogb(largest))); // so that no product overflows or underflows
   Interval product(0);
   for (std::size_t a = 0; a < 3; ++a) {
-    const Interval g = jet.coefficients()[1 + a] * scale, independent = g; // bounds of two gradients, not of one twice
+    const Interval g = jet.coefficients()[1 + a] * scale, independent = g; // bounds of two independent gradients
     if (axes[a]) product += g * independent;
   }
   return product.lower() > 0;
 }
 
-/// A face, an edge or a corner of a cell, or the cell itself: its extent along each axis.
+/// A face, an edge, or a corner of a cell, or the cell itself, given by its extent along each axis.
 struct Cell_side_3 {
   enum Extent { WHOLE, LOWER, UPPER };
   std::array<Extent, 3> extents;
 
-  /// Side n of the 27, of which number 0 is the cell itself.
+  /// Side n of the 27; number 0 is the cell itself.
   static Cell_side_3 number(int n) { return {{Extent(n % 3), Extent(n / 3 % 3), Extent(n / 9)}}; }
 
   std::array<bool, 3> axes() const {
@@ -93,7 +92,7 @@ struct Cell_side_3 {
     return CGAL::Bbox_3(lower[0], lower[1], lower[2], upper[0], upper[1], upper[2]);
   }
 
-  /// Whether this part of a cell lies in the same side of another box.
+  /// Whether this side of a cell lies in the same side of another box.
   bool touches(const CGAL::Bbox_3& cell, const CGAL::Bbox_3& outer) const {
     for (int a = 0; a < 3; ++a) {
       const Extent extent = extents[std::size_t(a)];
@@ -104,8 +103,8 @@ struct Cell_side_3 {
   }
 };
 
-/// Whether any two gradients in a cell form an acute angle, and so do their projections to every face and edge of the
-/// outer box that the cell touches and the surface meets. `jet` bounds f on the cell.
+/// Whether any two gradients in a cell form an acute angle, also after projection to every face and edge of the outer
+/// box that the cell touches and the surface meets. `jet` bounds f on the cell.
 template <ImplicitFunctionTraits_3 Traits>
 bool has_acute_gradients(const Traits& traits, const Jet_3<Interval, 1>& jet, const CGAL::Bbox_3& cell,
                          const CGAL::Bbox_3& outer) {
@@ -119,15 +118,15 @@ bool has_acute_gradients(const Traits& traits, const Jet_3<Interval, 1>& jet, co
   return true;
 }
 
-/// A cell of the octree, and what is known about f in it, which its children inherit.
+/// A cell of the octree with the known properties of f in it, which its children inherit.
 struct Seeding_cell_3 {
   Octree_3::Position position;
   double slope = std::numeric_limits<double>::infinity(); ///< bound of the sum of the |partial derivatives|
-  bool is_decided = false;                                ///< the gradients pairwise form acute angles
+  bool is_decided = false;                                ///< any two gradients form an acute angle
 };
 
-/// Proves, with bounds of f and of its gradient, that cells have no surface or have gradients that pairwise form acute
-/// angles. The cells are asked for level by level.
+/// Proves, with bounds of f and its gradient, that cells contain no surface or that any two of their gradients form
+/// an acute angle. Cells must be processed level by level.
 template <ImplicitFunctionTraits_3 Traits>
 class Cell_prover_3 {
   using Point_3 = typename Traits::Point_3;
@@ -139,13 +138,13 @@ public:
   Cell_prover_3(const Traits& traits, const CGAL::Bbox_3& outer, double largest_tight_side)
       : traits_(traits), outer_(outer), largest_tight_side_(largest_tight_side), known_(known_bounds(traits)) {}
 
-  bool knows_gradients() const { return known_.have_gradients; }
+  bool has_gradient_bounds() const { return known_.have_gradients; }
 
-  /// Every level tries out anew whether tight bounds are worth it.
+  /// Starts a level. Each level decides again whether tight bounds pay off.
   void begin_level() { tight_cells_ = settled_tight_cells_ = 0; }
 
-  /// Whether it is proved that there is no surface in a cell. If there may be some, the cell learns what is found about
-  /// it; for an urgent cell no effort is spared.
+  /// Whether a cell is proved to contain no surface. Otherwise stores in the cell what was found. For an urgent cell,
+  /// tight bounds are always tried.
   bool is_empty(Cell& cell, const CGAL::Bbox_3& box, double side, bool is_urgent) {
     const double value =
         known_.have_gradients ? std::abs(CGAL::to_double(typename Traits::FT(traits_.value(center(box))))) : 0;
@@ -153,25 +152,25 @@ public:
     if (cell.is_decided) return false;
     if constexpr (BoundedImplicitFunctionTraits_3<Traits>)
       if (!traits_.bounds(box).contains(0)) return true;
-    if (learn(cell, box, value, first_order_bounds(traits_, box))) return true;
+    if (update(cell, box, value, first_order_bounds(traits_, box))) return true;
     if (cell.is_decided || !are_tight_bounds_worth_it(side, is_urgent)) return false;
-    const bool is_empty = learn(cell, box, value, tight_first_order_bounds(traits_, box));
+    const bool is_empty = update(cell, box, value, tight_first_order_bounds(traits_, box));
     ++tight_cells_;
     settled_tight_cells_ += is_empty || cell.is_decided;
     return is_empty;
   }
 
-  /// Whether f has a pole in a box or is undefined there, which no subdivision removes.
+  /// Whether f has a pole in a box or is undefined there, which subdivision cannot remove.
   bool is_unbounded(const CGAL::Bbox_3& box) const {
     if constexpr (BoundedImplicitFunctionTraits_3<Traits>) return traits_.bounds(box) == Interval::whole();
     else return false;
   }
 
-  static constexpr int points_of_box = 27; ///< where f is looked at to know whether it is defined in a box
+  static constexpr int points_of_box = 27; ///< the number of points at which a box is tested for values of f
 
   bool has_value(const Point_3& p) const { return !std::isnan(CGAL::to_double(FT(traits_.value(p)))); }
 
-  /// Counts those of these points of a box, its corners and its center among them, at which f has no value.
+  /// Counts the test points of a box, including its corners and its center, at which f has no value.
   int count_undefined(const CGAL::Bbox_3& box) const {
     const auto at = [](double lower, double upper, int n) { return FT(lower + 0.5 * n * (upper - lower)); };
     int count = 0;
@@ -181,7 +180,7 @@ public:
     return count;
   }
 
-  /// Whether f may have values of any size in a box.
+  /// Whether f may be unbounded in a box.
   bool lacks_a_bound(const CGAL::Bbox_3& box) const {
     if constexpr (BoundedImplicitFunctionTraits_3<Traits>) {
       const Interval bounds = traits_.bounds(box);
@@ -197,17 +196,17 @@ public:
   }
 
 private:
-  /// Tight bounds cost about three times as much as others. After a number of cells of a level they are used as long as
-  /// they settle a third of them.
+  /// Tight bounds cost about three times as much as ordinary ones. After a number of cells of a level, they are only
+  /// used while they settle at least a third of the cells.
   bool are_tight_bounds_worth_it(double side, bool is_urgent) const {
     constexpr std::size_t least_tight_cells = 64;
     if (!known_.are_tight_in_small_boxes || side > largest_tight_side_) return false;
     return is_urgent || tight_cells_ < least_tight_cells || 3 * settled_tight_cells_ >= tight_cells_;
   }
 
-  /// Stores what bounds of f and its gradient tell about the cell, and returns whether they exclude a zero. `value` is
-  /// |f| at the center.
-  bool learn(Cell& cell, const CGAL::Bbox_3& box, double value, const Jet_3<Interval, 1>& jet) const {
+  /// Stores the consequences of bounds of f and its gradient in the cell, and returns whether they exclude a zero.
+  /// `value` is |f| at the center.
+  bool update(Cell& cell, const CGAL::Bbox_3& box, double value, const Jet_3<Interval, 1>& jet) const {
     cell.is_decided = has_acute_gradients(traits_, jet, box, outer_);
     Interval sum(0);
     for (std::size_t a = 1; a < 4; ++a) sum += abs(jet.coefficients()[a]);
@@ -215,8 +214,8 @@ private:
     return !jet.value().contains(0) || is_far(cell, box, value);
   }
 
-  /// Whether |f| at the center of a cell, `value`, is so large that the slope allows no zero in the cell. If that seems
-  /// to be so, bounds of the rounding errors, which take longer, prove it.
+  /// Whether |f| at the center of a cell, `value`, is so large that the slope excludes a zero in the cell. If it
+  /// seems so, this is proved with bounds of the rounding errors, which take longer.
   bool is_far(const Cell& cell, const CGAL::Bbox_3& box, double value) const {
     const auto offset = offset_from_center(box, center_of(box));
     double reach = 0;
@@ -233,7 +232,7 @@ private:
   const double largest_tight_side_;
   const Known_bounds known_;
   std::size_t tight_cells_ = 0;         // the cells of this level on which tight bounds were tried
-  std::size_t settled_tight_cells_ = 0; // those of them that tight bounds decided or proved to be empty
+  std::size_t settled_tight_cells_ = 0; // those of them that became decided or were proved to be empty
 };
 
 } // namespace equiaffine::internal

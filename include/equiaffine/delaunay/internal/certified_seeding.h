@@ -29,8 +29,8 @@
 
 namespace equiaffine::internal {
 
-/// Packs a surface with seeds, points that are about `packing * size(p)` apart, or nearer where a smaller distance is
-/// asked for. From a box that is to be covered, seeds spread over the whole component of the surface.
+/// Packs a surface with seeds, which are points about `packing * size(p)` apart, or closer where a smaller spacing is
+/// requested. From a box to be covered, seeds spread over the whole component of the surface.
 template <ImplicitFunctionTraits_3 Traits, class Sizing>
 class Seed_packing_3 {
   using Point_3 = typename Traits::Point_3;
@@ -40,21 +40,21 @@ class Seed_packing_3 {
 
 public:
   using Seed = typename Grid::Seed;
-  static constexpr double packing = 1.1; ///< distance of seeds / bound of circumradii
+  static constexpr double packing = 1.1; ///< distance of seeds / maximum circumradius
 
   Seed_packing_3(const Traits& traits, const Clip_domain_3& domain, Sizing size)
       : traits_(traits), domain_(domain), size_(std::move(size)) {}
 
   const std::vector<Seed>& seeds() const { return grid_.seeds(); }
 
-  /// Makes a vertex that the mesh has already a fixed seed, from which others keep the distance `spacing`.
+  /// Turns an existing vertex of the mesh into a fixed seed, to which others keep the distance `spacing`.
   void keep_away(const Point_3& vertex, double spacing) {
     const auto jet = first_order(traits_, vertex);
     grid_.insert({vertex, unit(gradient_of<Vector_3>(jet)), spacing, true});
   }
 
-  /// If a box has no seed, finds one in it and spreads from there. The surface is searched for up to the distance
-  /// `reach` from points in the box.
+  /// If a box has no seed, finds one in it and spreads from there. The surface is searched up to the distance `reach`
+  /// from points in the box.
   void cover(const CGAL::Bbox_3& box, double reach, double spacing) {
     constexpr int candidates = 3;
     if (grid_.has_seed_in(box)) return;
@@ -65,22 +65,23 @@ public:
     spread();
   }
 
-  /// Surrounds every new seed with seeds at the distance that they keep, until there are no new ones.
+  /// Surrounds every new seed with seeds at its spacing, until there are no new ones.
   void spread() {
     for (; spread_seeds_ < grid_.seeds().size(); ++spread_seeds_) {
-      const Seed seed = grid_.seeds()[spread_seeds_]; // a copy, since insertion may move the seeds
+      const Seed seed = grid_.seeds()[spread_seeds_]; // a copy, because insertion may reallocate the seeds
       surround(seed);
     }
   }
 
-  /// Points are random since a regular arrangement would make the triangulation degenerate.
+  /// A random point in a box. A regular arrangement of points would make the triangulation degenerate.
   Point_3 random_point(const CGAL::Bbox_3& b) {
-    // Compilers differ in the order in which they evaluate arguments, and all are to make the same mesh.
+    // Separate statements: the evaluation order of arguments is unspecified, and all compilers must give the same
+    // mesh.
     const double z = random(), y = random(), x = random();
     return Point_3(FT(b.xmin() + x * b.x_span()), FT(b.ymin() + y * b.y_span()), FT(b.zmin() + z * b.z_span()));
   }
 
-  /// A number in [0, 1); the sequence is the same on every machine (Vigna: splitmix64, 2015).
+  /// A pseudorandom number in [0, 1), the same sequence on every machine (Vigna: splitmix64, 2015).
   double random() {
     std::uint64_t z = state_ += 0x9E3779B97F4A7C15U;
     z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
@@ -93,7 +94,7 @@ private:
     constexpr int directions = 16;
     constexpr double jitter = 0.3;     // largest random addition to a distance, as a fraction
     constexpr double growth = 1.2;     // largest ratio of the spacings of neighbors
-    constexpr double tolerance = 0.98; // the candidate is not on the surface yet
+    constexpr double tolerance = 0.98; // because the candidate is not on the surface yet
     const Vector_3 &n = seed.normal, u = tangent_at(seed), v = CGAL::cross_product(n, u);
     const double turn = random();
     for (int k = 0; k < directions; ++k) {
@@ -109,7 +110,7 @@ private:
     }
   }
 
-  /// A unit vector orthogonal to the normal of a seed; far from parallel to the axis that it is computed from.
+  /// A unit vector orthogonal to the normal of a seed, computed from an axis that is far from parallel to the normal.
   static Vector_3 tangent_at(const Seed& seed) {
     const Vector_3& n = seed.normal;
     const auto is_smaller = [](const FT& a, const FT& b) { return CGAL::abs(a) < CGAL::abs(b); };
@@ -117,10 +118,10 @@ private:
     return unit(CGAL::cross_product(n, Vector_3(FT(axis == 0), FT(axis == 1), FT(axis == 2))));
   }
 
-  /// Makes a seed of the point of the surface near p, if a step of Newton's method leads into the box. Returns whether
-  /// there is a seed now at or near that point.
+  /// Inserts the point of the surface near p as a seed if a Newton step leads into the box. Returns whether there is
+  /// now a seed at or near that point.
   bool seed_surface_near(const Point_3& p, const CGAL::Bbox_3& box, double spacing, double reach) {
-    constexpr double tolerance = 0.99; // the point is not on the surface yet
+    constexpr double tolerance = 0.99; // because the point is not on the surface yet
     const auto jet = first_order(traits_, p);
     const auto gradient = gradient_of<Vector_3>(jet);
     const FT squared_norm = gradient.squared_length();
@@ -135,7 +136,7 @@ private:
     return true;
   }
 
-  /// Makes seeds where the surface crosses the edges of a box.
+  /// Inserts seeds where the surface crosses the edges of a box.
   void seed_edges(const CGAL::Bbox_3& box, double spacing) {
     std::array<Point_3, 8> corners;
     std::array<FT, 8> values;
@@ -158,7 +159,7 @@ private:
     if (domain_.contains(seed.point) && !grid_.is_crowded(seed)) grid_.insert(seed);
   }
 
-  /// v with the length 1, or the vector zero if v has no direction: at a singular point, or where f has no derivatives.
+  /// v normalized, or the zero vector if v has no direction: at a singular point, or where f has no derivatives.
   static Vector_3 unit(const Vector_3& v) {
     const double norm = std::sqrt(CGAL::to_double(v.squared_length()));
     return norm > 0 && std::isfinite(norm) ? v / FT(norm) : Vector_3(FT(0), FT(0), FT(0));
@@ -168,15 +169,15 @@ private:
   const Clip_domain_3& domain_;
   Sizing size_;
   Grid grid_;
-  std::size_t spread_seeds_ = 0; // so many of the first seeds are surrounded by others
-  std::uint64_t state_ = 1;      // the state of the random numbers
+  std::size_t spread_seeds_ = 0; // the number of seeds, from the first one, that are surrounded by others
+  std::uint64_t state_ = 1;      // of the random number generator
 };
 
 } // namespace equiaffine::internal
 
 namespace equiaffine {
 
-/// Points to begin a mesh with.
+/// The initial points of a mesh.
 template <class Point_3>
 struct Seeding_3 {
   std::vector<Point_3> seeds;                ///< on the surface, on every component that was found
@@ -184,18 +185,18 @@ struct Seeding_3 {
   std::vector<CGAL::Bbox_3> undecided_boxes; ///< where a part of the surface may have been missed
 };
 
-/// A vertex that the mesh has before it gets seeds.
+/// A vertex that exists in the mesh before seeding.
 template <class Point_3>
 struct Fixed_vertex_3 {
   Point_3 point;    ///< on the surface
-  double clearance; ///< distance that seeds keep from the vertex
+  double clearance; ///< minimum distance of seeds from the vertex
 };
 
 } // namespace equiaffine
 
 namespace equiaffine::internal {
 
-/// The algorithm of `certified_seeding`.
+/// Implements `certified_seeding`.
 template <ImplicitFunctionTraits_3 Traits, class Sizing>
 class Certified_seeding_3 {
   using Point_3 = typename Traits::Point_3;
@@ -215,7 +216,7 @@ public:
     packing_.spread();
     Cells cells = {Cell{{0, 0, 0}}};
     for (level_ = 0; !cells.empty(); ++level_) cells = process_level(cells);
-    if (!prover_.knows_gradients()) result_.undecided_boxes = {octree_.box()};
+    if (!prover_.has_gradient_bounds()) result_.undecided_boxes = {octree_.box()};
     for (const Seed& seed : packing_.seeds())
       if (!seed.is_fixed && !is_superfluous(seed)) result_.seeds.push_back(seed.point);
     make_scaffold();
@@ -224,18 +225,18 @@ public:
 
 private:
   static constexpr int maximal_level = 24;
-  static constexpr double seeded_size = 4;  // largest side of cells that are seeded / bound of circumradii
-  static constexpr double coarsening = 1.4; // distance of the seeds of a cell that had to be small / its side
+  static constexpr double seeded_size = 4;  // largest side of cells that are seeded / maximum circumradius
+  static constexpr double coarsening = 1.4; // spacing of the seeds of a cell that had to be small / its side
 
   /// Seeds the cells of a level that are small enough, drops those without surface, and returns the children of the
-  /// others.
+  /// remaining ones.
   Cells process_level(Cells& cells) {
     const double h = octree_.side(level_);
     const auto undecided =
         double(std::count_if(cells.begin(), cells.end(), [](const Cell& c) { return !c.is_decided; }));
-    const bool is_last = level_ == maximal_level || (h < largest_size_ && !prover_.knows_gradients()) ||
+    const bool is_last = level_ == maximal_level || (h < largest_size_ && !prover_.has_gradient_bounds()) ||
                          is_hopeless(undecided, h);                      // for undecided cells
-    const bool is_urgent = is_last || is_hopeless(8 * undecided, h / 2); // the next level may be the last
+    const bool is_urgent = is_last || is_hopeless(8 * undecided, h / 2); // the next level may be the last one
     prover_.begin_level();
     Cells next;
     for (Cell& cell : cells) {
@@ -262,18 +263,18 @@ private:
     return next;
   }
 
-  /// Whether f seems to be undefined in all of a cell of side h, which is not much larger than facets: it has no value
-  /// at any of some points, and not two bounds.
+  /// Whether f seems to be undefined in an entire cell of side h, which is not much larger than facets: f has no
+  /// value at any test point, and lacks a bound.
   bool is_undefined(const CGAL::Bbox_3& box, double h) const {
-    return h < 4 * largest_size_ && prover_.knows_gradients() && !prover_.has_value(center(box)) &&
+    return h < 4 * largest_size_ && prover_.has_gradient_bounds() && !prover_.has_value(center(box)) &&
            prover_.lacks_a_bound(box) && prover_.count_undefined(box) == prover_.points_of_box;
   }
 
-  /// Whether there are too many undecided cells of side h to subdivide them once more. A singular point leaves few
-  /// undecided cells at each level, a singular curve twice as many at each level as before. Cells smaller than facets
-  /// may be less.
+  /// Whether there are too many undecided cells of side h to subdivide them once more. A singular point leaves a few
+  /// undecided cells at each level; a singular curve doubles their number with each level. The limit is lower for
+  /// cells smaller than facets.
   bool is_hopeless(double undecided, double h) const {
-    constexpr double largest_fraction = 0.125; // of the box that cells may fill which are undecided, or have no f
+    constexpr double largest_fraction = 0.125; // of the box that undecided cells and cells without f may fill
     constexpr double maximal_undecided_cells = 200'000;
     const bool fills_box =
         2 * h < largest_size_ && undecided * h * h * h + undefined_volume_ > largest_fraction * volume(octree_.box());
@@ -284,8 +285,8 @@ private:
   static double volume(const CGAL::Bbox_3& b) { return b.x_span() * b.y_span() * b.z_span(); }
   static Point_3 center(const CGAL::Bbox_3& b) { return Cell_prover_3<Traits>::center(b); }
 
-  /// Reports and seeds an undecided cell. If it is smaller than a sixteenth of a facet, a cell of about that size takes
-  /// its place, which contains it.
+  /// Reports and seeds an undecided cell. A cell smaller than a sixteenth of a facet is replaced by its ancestor of
+  /// about that size.
   void give_up(Octree_3::Position position) {
     int level = level_;
     for (; level > 0 && 16 * octree_.side(level) < largest_size_; --level)
@@ -299,8 +300,8 @@ private:
     packing_.cover(box, 2 * side, Packing::packing * size_(center(box)));
   }
 
-  /// Whether a seed is nearer to others than a sixteenth of a facet, and at most two cells away from a cell that was
-  /// given up. Seeds get denser towards a singular point, but are not needed there, where the mesh may end.
+  /// Whether a seed has a spacing of less than a sixteenth of a facet and is at most two cells away from a cell that
+  /// was given up. Seeds get denser toward a singular point but are not needed there, because the mesh may end there.
   bool is_superfluous(const Seed& seed) const {
     if (given_up_.empty() || seed.spacing >= Packing::packing * largest_size_ / 16) return false;
     std::array<std::int64_t, 3> cell;
@@ -315,7 +316,7 @@ private:
     return false;
   }
 
-  /// Makes points on both sides of the surface. With them the surface is no part of the convex hull, even if it is a
+  /// Adds points on both sides of the surface, so that the surface is not a part of the convex hull even if it is a
   /// plane.
   void make_scaffold() {
     const CGAL::Bbox_3& box = octree_.box();
@@ -340,8 +341,8 @@ private:
   Cell_prover_3<Traits> prover_;
   Packing packing_;
   int level_ = 0;
-  std::vector<CGAL::Bbox_3> empty_boxes_; // much larger than facets
-  std::set<Octree_3::Position> given_up_; // all on the same level
+  std::vector<CGAL::Bbox_3> empty_boxes_; // those much larger than facets
+  std::set<Octree_3::Position> given_up_; // all of the same level
   double given_up_side_ = 0;
   double undefined_volume_ = 0; // of the cells in which f is undefined
   Seeding_3<Point_3> result_;
@@ -351,22 +352,22 @@ private:
 
 namespace equiaffine {
 
-/// Finds points on every component of the zero set of f in a domain, so dense that a Delaunay mesh can begin with them.
-/// `size(p)` bounds the circumradius of facets near p, and is at most `largest_size`. \throw std::invalid_argument
-/// unless `largest_size` is positive and finite
+/// Finds points on every component of the zero set of f in a domain, dense enough as initial points of a Delaunay
+/// mesh. `size(p)` bounds the circumradius of facets near p, and is at most `largest_size`. \throw
+/// std::invalid_argument unless `largest_size` is positive and finite
 ///
-/// The box of the domain is subdivided into an octree until every cell either has no surface or has gradients that
-/// pairwise form acute angles. By a theorem of Plantinga and Vegter (Isotopic approximation of implicit curves and
-/// surfaces, 2004) a component of the surface cannot lie in such cells without a change of sign between corners of the
-/// octree. Cells at the border of the box must satisfy the same within its faces and edges. The cells with surface are
-/// then subdivided to the local facet size and packed with points, which keep their clearance from `vertices`. The
-/// points are the same on every run.
+/// The box of the domain is subdivided into an octree until every cell either contains no surface or has gradients of
+/// which any two form an acute angle. By a theorem of Plantinga and Vegter (Isotopic approximation of implicit curves
+/// and surfaces, 2004), a component of the surface cannot lie in such cells without a change of sign between corners
+/// of the octree. Cells at the border of the box must satisfy the same condition within its faces and edges. The
+/// cells with surface are then subdivided to the local facet size and packed with points, which keep their clearance
+/// from `vertices`. The points are the same on every run.
 template <ImplicitFunctionTraits_3 Traits, class Sizing>
 Seeding_3<typename Traits::Point_3>
 certified_seeding(const Traits& traits, const Clip_domain_3& domain, const Sizing& size, double largest_size,
                   const std::vector<Fixed_vertex_3<typename Traits::Point_3>>& vertices = {}) {
   check_argument(largest_size > 0 && std::isfinite(largest_size),
-                 "the largest size of facets is not a positive length: choose one");
+                 "the largest size of facets is not positive and finite: choose a positive length");
   return internal::Certified_seeding_3<Traits, Sizing>(traits, domain, size, largest_size)(vertices);
 }
 

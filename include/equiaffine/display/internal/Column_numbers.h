@@ -11,44 +11,44 @@
 #include <numeric>
 #include <vector>
 
-// The library defines the members that have no body here.
+// The members without a body are compiled into the library.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 namespace equiaffine {
 
-/// The numbers of a column that decide on its colors: those that are known to one digit, or all if none is. The rules
-/// by which numbers get their colors are here, for pages and pictures.
+/// The numbers of a column that determine its colors: those that are known to one digit, or all if there are none.
+/// This class has the rules that assign colors to numbers, for pages and pictures.
 class Column_numbers {
 public:
-  /// Numbers closer than `resolution` are equal up to rounding; `areas` weigh them; `is_known` and `errors` are
-  /// empty if there are no errors.
+  /// Numbers closer than `resolution` are equal up to rounding. `areas` are their weights. `is_known` and `errors`
+  /// are empty if there are no errors.
   Column_numbers(const std::vector<double>& values, const std::vector<bool>& is_known,
                  const std::vector<double>& errors, const std::vector<double>& areas, double resolution);
 
-  /// Ascending.
+  /// The numbers in ascending order.
   const std::vector<double>& sorted() const { return sorted_; }
 
-  /// The part of all numbers that are not known to one digit.
+  /// The fraction of all numbers that are not known to one digit.
   double part_unknown() const { return part_unknown_; }
 
-  /// The ranks of the numbers, weighted by area. Those that are zero up to rounding have none.
+  /// The ranks of the numbers, weighted by area, except those that are zero up to rounding.
   Equalization equalization() const;
 
-  /// The mapping that is used unless something else is asked for. Its scale is the first of linear, logarithmic and
-  /// equalized by which the median is an eighth of the color bar or more away from where it would look like nothing:
-  /// that of |value| from zero for a diverging range, else that of the values from both ends; linear if there is none.
+  /// The default mapping. Its scale is the first of linear, logarithmic, and equalized for which the median is
+  /// visible: at least an eighth of the color bar away from zero (the median of |value|) for a diverging range, or
+  /// from both ends (the median of the values) otherwise. It is linear if there is none.
   Color_mapping mapping(double clip_percent = default_clip_percent) const {
     return mapping(clip_percent, equalization());
   }
 
-  /// The same, with the equalization of these numbers.
+  /// The same with a given equalization of these numbers.
   Color_mapping mapping(double clip_percent, const Equalization& equalization) const;
 
 private:
   bool shows_median(const Color_mapping& mapping) const;
 
-  double resolution_, part_unknown_ = 0, error_ = 0; // the latter is the median of known numbers
+  double resolution_, part_unknown_ = 0, error_ = 0; // error_ is the median error of the known numbers
   std::vector<Weighted_number> numbers_;
   std::vector<double> sorted_, magnitudes_;
 };

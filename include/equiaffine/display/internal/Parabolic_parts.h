@@ -8,25 +8,25 @@
 #include <cstdint>
 #include <vector>
 
-// The library defines the members that have no body here.
+// The members without a body are compiled into the library.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 namespace equiaffine {
 
-/// What pictures make of a vertex, by its status.
+/// How pictures treat a vertex, depending on its status.
 enum class Parabolic_part : std::uint8_t {
-  NONE,  ///< it is not parabolic, or lies on a curve where the Gaussian curvature is zero
-  SPOT,  ///< it is one of a few parabolic vertices amid regular ones, whose numbers are interpolated there
-  REGION ///< it is a corner of a triangle of parabolic vertices, which is painted as such
+  NONE,  ///< it is not parabolic, or lies on a curve of zero Gaussian curvature
+  SPOT,  ///< one of a few parabolic vertices amid regular ones, with interpolated numbers
+  REGION ///< a corner of a triangle of parabolic vertices, which is painted as such
 };
 
-/// The note of pictures on regions.
+/// The legend of parabolic regions in pictures.
 inline constexpr const char* parabolic_region_text = "parabolic region: Gaussian curvature zero within its error";
 
-/// The parts of a surface where affine numbers do not exist since the Gaussian curvature is zero, or zero within its
-/// estimated error. Of a formula they are curves. Of a scan they are regions, and single vertices where noise happens
-/// to cancel: a picture that marked each of these would speak of the noise, so that they take the mean of their
+/// The parts of a surface where affine quantities are undefined because the Gaussian curvature is zero, or zero
+/// within its estimated error. For a formula these are curves. For a scan they are regions, and single vertices where
+/// noise happens to cancel. Marking each of these vertices would only show noise, so they get the mean of their
 /// neighbors.
 class Parabolic_parts {
 public:
@@ -40,11 +40,11 @@ public:
   /// The vertices in spots, ascending.
   const std::vector<std::uint32_t>& spots() const { return spots_; }
 
-  /// Returns the numbers with those that are missing in spots interpolated from their neighbors.
+  /// Returns the numbers, with missing ones in spots interpolated from their neighbors.
   std::vector<double> filled(std::vector<double> numbers) const;
 
-  /// Returns the Gaussian curvatures with the sign of the side on which pictures take each vertex: zero on curves, that
-  /// of the neighbors in spots, NaN in regions and where it is not known.
+  /// Returns the Gaussian curvatures with the sign of the side to which pictures assign each vertex: zero on curves,
+  /// that of the neighbors in spots, NaN in regions and where it is unknown.
   std::vector<double> sides(std::vector<double> curvatures) const;
 
 private:
@@ -53,7 +53,7 @@ private:
   unsigned kind_of(std::uint32_t regular) const;
 
   std::vector<bool> is_parabolic_;
-  std::vector<double> curvatures_; // empty if they are not among the attributes
+  std::vector<double> curvatures_; // empty if the attributes do not include them
   std::vector<Parabolic_part> parts_;
   std::vector<std::uint32_t> spots_;
   std::vector<Triangle> triangles_of_spots_;

@@ -12,27 +12,28 @@
 
 namespace equiaffine::internal {
 
-/// The smooth parts of a surface between its creases. A point on a crease is one of each part that meets there.
+/// The smooth parts of a surface between its creases. A point on a crease is duplicated, one copy for each part that
+/// meets there.
 struct Charts_3 {
   using Index = std::uint32_t;
 
-  /// How two parts are combined: not at all, as the intersection of half-spaces, as their union, or, if they have
-  /// creases of both kinds in common, as the intersection, too.
+  /// How two parts are combined: not at all, as the intersection of half-spaces, or as their union. Parts that share
+  /// creases of both kinds are combined as an intersection, too.
   enum class Relation { NONE, CONVEX, CONCAVE, MIXED };
 
-  std::vector<Index> of_point;                       ///< a number for each point; empty if there is no crease
-  std::vector<char> is_on_crease;                    ///< for each point; empty if there is no crease
-  std::map<std::pair<Index, Index>, double> bend;    ///< of the creases of two parts, in both orders: above 0 if convex
-  std::map<std::pair<Index, Index>, int> at_corners; ///< of parts with a corner in common: above 0 if mostly convex
-  std::map<Index, std::size_t> number_of_neighbors;  ///< parts that a part meets at creases
-  std::size_t most_at_point = 1;                     ///< the greatest number of parts that meet at a point
+  std::vector<Index> of_point;                       ///< the part of each point; empty if there is no crease
+  std::vector<char> is_on_crease;                    ///< per point; empty if there is no crease
+  std::map<std::pair<Index, Index>, double> bend;    ///< total bend of the creases between two parts, in both orders;
+                                                     ///< positive if convex
+  std::map<std::pair<Index, Index>, int> at_corners; ///< for parts that share a corner; positive if mostly convex
+  std::map<Index, std::size_t> number_of_neighbors;  ///< number of parts that a part meets at creases
+  std::size_t most_at_point = 1;                     ///< largest number of parts that meet at a point
 
   bool empty() const { return of_point.empty(); }
   Index of(std::size_t i) const { return empty() ? 0 : of_point[i]; }
   bool has_crease_at(std::size_t i) const { return !empty() && is_on_crease[i]; }
   bool has_creases(Index a) const { return number_of_neighbors.contains(a); }
 
-  /// Adds the bend of an edge between two parts.
   void add_crease(Index a, Index b, double angle) {
     for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
       const auto [crease, is_new] = bend.try_emplace({from, to}, 0);
@@ -41,9 +42,10 @@ struct Charts_3 {
     }
   }
 
-  /// Returns the relation of parts that meet, one for all of their creases, or of parts that meet the same third part
-  /// at creases of the same kind, as opposite sides of a plate or of a slot do. It is MIXED if they meet third parts in
-  /// other ways only. Parts that have a corner in common have the relation of most creases there.
+  /// Returns the relation of two parts. Parts that meet have one relation for all of their creases. Other parts have
+  /// the relation of their creases with a common third part, like opposite sides of a plate or of a slot; it is
+  /// MIXED if all such creases are of different kinds. Otherwise parts that share a corner have the relation of most
+  /// creases there.
   Relation relation(Index a, Index b) const {
     if (const auto found = bend.find({a, b}); found != bend.end()) return kind_of(found->second);
     if (!has_creases(a) || !has_creases(b)) return Relation::NONE;
@@ -62,7 +64,8 @@ struct Charts_3 {
     return found == at_corners.end() ? result : kind_of(found->second);
   }
 
-  /// Adds a corner of several parts. Of more than 64, those that do not meet at creases have no relation.
+  /// Adds a corner of several parts. In a corner of more than 64, parts that do not meet at creases have no
+  /// relation.
   void add_corner(std::vector<Index> parts) {
     constexpr std::size_t most_parts = 64;
     std::sort(parts.begin(), parts.end());
@@ -80,25 +83,25 @@ struct Charts_3 {
     for (const auto& pair : apart) at_corners[pair] += convex;
   }
 
-  /// The value of the function of a part. The greater its fading, the less decisive it is beside others; the value of a
-  /// part that comes near or goes away has an infinite one.
+  /// The value of the function of a part. The larger its fading, the less it counts beside the values of other
+  /// parts. A part that enters or leaves the neighborhood has an infinite fading.
   struct Part_value {
     Index chart;
     double value, fading;
   };
 
-  /// The part whose value is that of the solid, what fading adds to it, and their sum.
+  /// The part whose value is that of the solid, the term added by fading, and their sum.
   struct Choice {
     std::size_t position;
     double fading, value;
   };
 
-  /// Returns whose value is that of a solid which is bounded by several parts, that of the nearest part first: the
-  /// solid is the intersection of parts that meet at convex creases, whose value is the greatest, and the union of
-  /// those at concave ones, whose value is the least (as in constructive solid geometry; Ohtake et al., Multi-level
-  /// partition of unity implicits, 2003). Unions come first, then the intersection of all of them, which is right at
-  /// corners of three parts and at those with one kind of creases. Parts that no relations lead to from the nearest one
-  /// are other sheets.
+  /// Returns the part that gives the value of a solid bounded by several parts, the nearest one first. Parts that
+  /// meet at convex creases are intersected, which is the maximum of their values; parts that meet at concave
+  /// creases are united, which is the minimum (as in constructive solid geometry; Ohtake et al., Multi-level
+  /// partition of unity implicits, 2003). Unions come first, then the intersection of all of them, which is correct
+  /// at corners of three parts and at those with creases of one kind. Parts not connected to the nearest one by
+  /// relations are other sheets.
   Choice combined(const std::vector<Part_value>& parts) const {
     const std::vector<char> is_related = connected_with_first(parts);
     Choice greatest = {0, 0, -std::numeric_limits<double>::infinity()};

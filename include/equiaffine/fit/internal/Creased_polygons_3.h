@@ -21,12 +21,12 @@
 
 namespace equiaffine::internal {
 
-/// Points with polygons between them that come apart at creases.
+/// Points with polygons that can be cut apart at creases.
 class Creased_polygons_3 {
 public:
   using Index = std::uint32_t;
   using Vector = Eigen::Vector3d;
-  using Edge = std::array<Index, 2>; ///< the smaller number first
+  using Edge = std::array<Index, 2>; ///< smaller index first
 
   Creased_polygons_3(std::vector<Vector> points, std::vector<std::vector<Index>> faces)
       : points_(std::move(points)), faces_(std::move(faces)) {
@@ -49,7 +49,7 @@ public:
   const std::vector<Vector>& points() const { return points_; }
   const std::vector<std::vector<Index>>& faces() const { return faces_; }
 
-  /// Marks the points of edges of one face.
+  /// Marks the points on edges of one face.
   std::vector<char> borders() const {
     std::vector<char> result(points_.size());
     for_each_edge([&](std::size_t first, std::size_t last) {
@@ -59,10 +59,10 @@ public:
     return result;
   }
 
-  /// Returns, in order, the edges of two faces that bend by more than an angle in degrees, where they follow each other
-  /// as creases do: sharp edges that are connected are ten mean edges long, and ten more for each loose end, and fewer
-  /// than half as many edges at them bend by a third of the angle. Noise and thin triangles make edges sharp, too, one
-  /// here and one there, or a few around a small triangle, or many beside others that are less sharp.
+  /// Returns, in order, the edges of two faces that bend by more than an angle in degrees and form creases. A
+  /// connected set of sharp edges is a crease if it is at least ten mean edges long, and ten more for each loose
+  /// end, and if fewer than half as many edges at it bend by a third of the angle. Otherwise noise or thin triangles
+  /// explain them: isolated sharp edges, a few around a small triangle, or many next to less sharp ones.
   std::vector<Edge> creases(double angle) const {
     constexpr double length_per_end = 10, most_others = 0.5;
     const double least = angle * std::numbers::pi / 180;
@@ -98,8 +98,8 @@ public:
     return sharp;
   }
 
-  /// Takes polygons apart at creases: a point of several smooth parts becomes one of each. The part with the greatest
-  /// area around it keeps its number, and the others get new ones.
+  /// Cuts polygons apart at creases: a point shared by several smooth parts is duplicated for each part. The part
+  /// with the largest area around the point keeps its index; the others get new ones.
   Charts_3 split(const std::vector<Edge>& creases) {
     Charts_3 charts;
     if (creases.empty()) return charts;
@@ -124,13 +124,12 @@ public:
   }
 
 private:
-  /// An edge of a face, from its corner number `position` to the next one.
+  /// An edge of a face, from corner `position` to the next one.
   struct Side {
     Edge ends;
     std::size_t face, position;
   };
 
-  /// Calls f(first, last) for the sides of each edge.
   template <class F>
   void for_each_edge(const F& f) const {
     for (std::size_t first = 0, last = 0; first < sides_.size(); first = last) {
@@ -139,7 +138,7 @@ private:
     }
   }
 
-  /// The angle between the normals of the faces of two sides, positive if they are convex.
+  /// The angle between the normals of the two faces at an edge, positive if it is convex.
   double bend(std::size_t first) const {
     const Side &a = sides_[first], &b = sides_[first + 1];
     const Vector &m = normals_[a.face], &n = normals_[b.face];
@@ -151,7 +150,7 @@ private:
 
   double length(const Edge& ends) const { return (points_[ends[0]] - points_[ends[1]]).norm(); }
 
-  /// The corners of faces in sets, one for each smooth part around a point. A point without a crease has one part.
+  /// The face corners in sets, one set for each smooth part around a point. A point without a crease has one set.
   Disjoint_sets<std::size_t> sectors_of(const std::vector<Edge>& creases) const {
     Disjoint_sets<std::size_t> sectors(corners_);
     const auto corner = [&](std::size_t side, Index v) {
@@ -181,7 +180,7 @@ private:
     for (std::size_t f = 0; f < faces_.size(); ++f)
       for (std::size_t k = 0; k < faces_[f].size(); ++k)
         areas[{faces_[f][k], sectors.find(first_corner_[f] + k)}] += areas_[f];
-    std::map<std::size_t, Index> point_of; // of sectors that are not alone
+    std::map<std::size_t, Index> point_of; // of sectors that are not the largest of their point
     for (auto it = areas.begin(); it != areas.end();) {
       const Index v = it->first.first;
       auto end = it, largest = it;
@@ -204,13 +203,13 @@ private:
   }
 
   std::vector<Vector> points_;
-  std::vector<Index> given_; ///< the given point that each point is
+  std::vector<Index> given_; ///< the given point of which this is a copy
   std::vector<std::vector<Index>> faces_;
-  std::vector<Vector> normals_; ///< of faces; 0 for those without an area
+  std::vector<Vector> normals_; ///< of faces; 0 if the area is 0
   std::vector<double> areas_;   ///< of faces, doubled
   std::vector<std::size_t> first_corner_;
   std::size_t corners_ = 0;
-  std::vector<Side> sides_; ///< by their ends
+  std::vector<Side> sides_; ///< sorted by their ends
 };
 
 } // namespace equiaffine::internal

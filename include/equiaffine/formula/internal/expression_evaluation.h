@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Evaluates the tape of an expression for blocks of points, by operations and functions that exist for any number type.
+// Evaluates the tape of an expression for blocks of points, with operations and functions of any number type.
 #ifndef EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_EVALUATION_H
 #define EQUIAFFINE_FORMULA_INTERNAL_EXPRESSION_EVALUATION_H
 
@@ -23,9 +23,9 @@
 
 namespace equiaffine::internal::expression {
 
-// These functions compute with a T and a double. They use the mixed operators of T where these exist and return T: to
-// scale a Taylor polynomial is many times cheaper than a product of two. A float would be promoted to double by such
-// an operator; therefore the double is converted for built-in types.
+// Operations of a T and a double. They use the mixed operators of T if these exist and return T: scaling a Taylor
+// polynomial is many times cheaper than multiplying two. For built-in types the double is converted first, since a
+// mixed operator would promote a float to double.
 template <class T>
 T plus_constant(const T& a, double c) {
   if constexpr (!std::is_arithmetic_v<T> && requires {
@@ -71,7 +71,7 @@ T constant_over(double c, const T& a) {
   else return T(c) / a;
 }
 
-// These functions have a substitute for types that lack them.
+// Functions with a substitute for types that lack them.
 template <class T>
 T squared(const T& a) {
   if constexpr (requires {
@@ -81,9 +81,8 @@ T squared(const T& a) {
   else return a * a;
 }
 
-/// HasOwnPower tells whether T has its own pow(T, Exponent). Overload resolution prefers such a function to the
-/// catch-all `pow` below, but the catch-all to a function that would have to convert the exponent, such as pow(T, int)
-/// for 1.5.
+/// HasOwnPower is whether T has its own pow(T, Exponent). Overload resolution prefers it to the catch-all `pow` below,
+/// and prefers the catch-all to functions that would convert the exponent, such as pow(T, int) for 1.5.
 namespace own_power {
 
 struct Absent {};
@@ -111,8 +110,7 @@ T constant_power(const T& a, double c) {
   else return real_power(a, T(c));
 }
 
-/// The lesser argument, or NaN if either is NaN, which std::min and std::fmin can hide. This holds for types without a
-/// `min` of their own.
+/// The smaller argument, or NaN if either is NaN, unlike std::min and std::fmin. A `min` of T has precedence.
 template <class T>
 T minimum(const T& a, const T& b) {
   if constexpr (!std::is_arithmetic_v<T> && requires {
@@ -122,7 +120,7 @@ T minimum(const T& a, const T& b) {
   else return a < b || a != a ? a : b;
 }
 
-/// The greater argument, with NaN as in minimum().
+/// The larger argument, with NaN as in minimum().
 template <class T>
 T maximum(const T& a, const T& b) {
   if constexpr (!std::is_arithmetic_v<T> && requires {
@@ -132,7 +130,7 @@ T maximum(const T& a, const T& b) {
   else return a > b || a != a ? a : b;
 }
 
-/// The angle of (x, y). It is NaN at the origin, where the C library has a conventional value but no derivative exists.
+/// The angle of (x, y). NaN at the origin, where the C library has a conventional value but no derivative exists.
 template <class T>
 T angle(const T& y, const T& x) {
   using std::atan2;
@@ -151,7 +149,7 @@ T hypotenuse(const T& a, const T& b) {
   else return sqrt(T(squared(a) + squared(b)));
 }
 
-/// The sign, by `<` for types without a `sign` of their own.
+/// The sign, computed by `<` for types without their own `sign`.
 template <class T>
 T signum(const T& a) {
   if constexpr (requires {
@@ -161,30 +159,30 @@ T signum(const T& a) {
   else return T(0) < a ? T(1) : a < T(0) ? T(-1) : a;
 }
 
-/// Throws std::domain_error, since a number type that has no such function cannot do with arithmetic alone.
+/// Throws std::domain_error: this function has no substitute by arithmetic.
 [[noreturn]] inline void fail_without(const char* function) {
   throw std::domain_error(std::string("the number type of this evaluation has no function ") + function +
-                          ": define one that argument-dependent lookup finds");
+                          ": define one that argument-dependent lookup can find");
 }
 
 template <class T>
 T error_function(const T& a) {
   using std::erf;
-  if constexpr (own_steps::HasErf<T>) return erf(a);
+  if constexpr (own_functions::HasErf<T>) return erf(a);
   else fail_without("erf(T)");
 }
 
 template <class T>
 T whole_part(const T& a) {
   using std::floor;
-  if constexpr (own_steps::HasFloor<T>) return floor(a);
+  if constexpr (own_functions::HasFloor<T>) return floor(a);
   else fail_without("floor(T)");
 }
 
 template <class T>
 T remainder_of(const T& a, const T& b) {
   using std::fmod;
-  if constexpr (own_steps::HasFmod<T>) return fmod(a, b);
+  if constexpr (own_functions::HasFmod<T>) return fmod(a, b);
   else fail_without("fmod(T, T)");
 }
 
@@ -201,7 +199,8 @@ void for_each_point(const T* __restrict a, const T* __restrict b, T* __restrict 
   }
 }
 
-/// Computes a^n for n >= 3, by repeated squaring from the leading bit of n downwards unless T has its own pow(T, int).
+/// Computes a^n for n >= 3, by pow(T, int) of T if it exists, otherwise by repeated squaring from the leading bit of n
+/// down.
 template <std::size_t Block, class T>
 void integer_power(const T* a, T* result, std::size_t count, unsigned n) {
   const auto apply = [&](const T* u, auto f) { for_each_point<Block>(u, u, result, count, f); };
@@ -221,13 +220,13 @@ void integer_power(const T* a, T* result, std::size_t count, unsigned n) {
   }
 }
 
-/// A number type whose values can be compared, or a pack of such numbers: execute_choice() needs it.
+/// A number type with comparisons, or a pack of such numbers, as required by execute_choice().
 template <class T>
 concept Ordered = std::is_floating_point_v<T> || requires {
   typename T::Mask;
 };
 
-/// Executes the instructions that choose Taylor coefficients where abs, min or max have a kink.
+/// Executes the instructions that choose Taylor coefficients at kinks of abs, min and max and at jumps of fmod.
 template <std::size_t Block, class T>
 void execute_choice(const Instruction& instruction, const T* a, const T* b, T* result, std::size_t count) {
   const auto apply = [&](auto f) { for_each_point<Block>(a, b, result, count, f); };
@@ -243,7 +242,7 @@ void execute_choice(const Instruction& instruction, const T* a, const T* b, T* r
   }
 }
 
-/// Executes the instructions that take much longer than a call of this function.
+/// Executes the instructions that take much longer than a function call.
 template <std::size_t Block, class T>
 [[gnu::noinline]] void execute_function(const Instruction& instruction, const T* a, const T* b, T* result,
                                         std::size_t count) {
@@ -282,8 +281,8 @@ template <std::size_t Block, class T>
   }
 }
 
-/// Executes one instruction for `count` <= Block points. This function is inlined into the loop over the instructions
-/// with all arithmetic operations, which are most of a tape: a call for each would take as long as the operation.
+/// Executes one instruction for `count` <= Block points. Inlined into the loop over the instructions, with all
+/// arithmetic operations: they are most of a tape, and a call would take as long as the operation.
 template <std::size_t Block, class T>
 [[gnu::always_inline]] inline void execute(const Instruction& instruction, const T* a, const T* b, T* result,
                                            std::size_t count) {
@@ -306,13 +305,13 @@ template <std::size_t Block, class T>
   }
 }
 
-/// The number of points, or of packs of points, in a block. A slot takes half a kilobyte, so that the slots of a
-/// typical tape stay in the first-level cache. If T is as large as a Taylor polynomial, the block is one point.
+/// The number of points, or of packs of points, in a block. A slot takes 512 bytes, so that the slots of a typical tape
+/// fit into the first-level cache. If T is as large as a Taylor polynomial, a block is one point.
 template <class T>
 inline constexpr std::size_t block_size = std::max<std::size_t>(1, 512 / sizeof(T));
 
-/// The memory for the intermediate results of a tape. It is on the stack for up to 32 slots of a T that needs no
-/// constructor, else on the heap.
+/// Memory for the intermediate results of a tape: on the stack for up to 32 slots of a T that needs no constructor,
+/// otherwise on the heap.
 template <std::size_t Block, class T>
 class Slots {
 public:
@@ -328,7 +327,7 @@ public:
       execute<Block>(i, operand(slots, i.a), operand(slots, i.b), slot(slots, i.result), count);
   }
 
-  /// The values of result n after run(), which lie in a slot or, for a lone variable, in the points of that run.
+  /// The values of result n after run(): in a slot or, if the result is a variable, in the points of that run.
   const T* result(std::size_t n = 0) { return operand(first(), tape_.results[n]); }
 
 private:
@@ -342,12 +341,12 @@ private:
 
   const Tape& tape_;
   std::array<const T*, number_of_variables> points_{};
-  std::array<T, stack_size> on_stack_; ///< not initialized, as T needs no constructor
+  std::array<T, stack_size> on_stack_; ///< uninitialized, since T needs no constructor
   std::unique_ptr<T[]> on_heap_;
 };
 
-/// Runs the tape at all points, block by block. After a block, store(slots, first, count) takes the results of the
-/// points with the indices `first` to `first + count - 1`.
+/// Runs the tape at all points, block by block. After each block it calls store(slots, first, count) for the points
+/// with the indices `first` to `first + count - 1`.
 template <std::size_t Block, class T, class Store>
 void run_in_blocks(const Tape& tape, std::span<const T> x, std::span<const T> y, std::span<const T> z,
                    const Store& store) {

@@ -16,9 +16,7 @@
 
 namespace equiaffine::internal {
 
-// Expands a function at the points of many searches in one call.
-
-/// Advances searches until all have ended. Each round expands f at the points of all that have not, in one call.
+/// Runs all searches to their ends. Each iteration expands f at the points of all active searches in one call.
 template <class Traits, class Kernel>
 void finish_together(const Batch_function_traits_3<Traits>& traits,
                      std::span<Newton_search_3<Kernel>* const> searches) {
@@ -34,7 +32,7 @@ void finish_together(const Batch_function_traits_3<Traits>& traits,
   }
 }
 
-/// Returns a box around the segments of searches and the rounded points on them.
+/// A box around the segments of searches, enlarged by the rounding of points on them.
 template <class Kernel>
 CGAL::Bbox_3 box_around(std::span<Newton_search_3<Kernel>* const> searches) {
   CGAL::Bbox_3 box;
@@ -49,8 +47,8 @@ CGAL::Bbox_3 box_around(std::span<Newton_search_3<Kernel>* const> searches) {
           box.xmax() + rounding, box.ymax() + rounding, box.zmax() + rounding};
 }
 
-/// Advances searches until all have ended, and changes their order. A function that is cheaper around the segments is
-/// expanded in place of f, and where there is one, the searches are divided along the longest side of their box.
+/// Runs all searches to their ends, and changes their order. If there is a cheaper function for the box of the
+/// segments, it replaces f, and the searches are divided along the longest side of the box.
 template <class Traits, class Kernel>
 void finish_in_parts(const Batch_function_traits_3<Traits>& traits, std::span<Newton_search_3<Kernel>*> searches) {
   constexpr std::size_t smallest_part = 8;
@@ -75,8 +73,8 @@ void finish_in_parts(const Batch_function_traits_3<Traits>& traits, std::span<Ne
 
 namespace equiaffine {
 
-/// Does what intersect_segment() does on each segment, with the same bits unless the compiler contracts products and
-/// sums. A segment has `ends` and the `values` there.
+/// Equivalent to intersect_segment() for each segment, bit for bit unless the compiler contracts products and sums. A
+/// segment has `ends` and the `values` there.
 template <class Traits, class Segment>
 std::vector<Surface_point_3<Kernel_of<Traits>>> intersect_segments(const Batch_function_traits_3<Traits>& traits,
                                                                    std::span<const Segment> segments) {
@@ -93,7 +91,7 @@ std::vector<Surface_point_3<Kernel_of<Traits>>> intersect_segments(const Batch_f
     internal::finish_in_parts(traits, std::span(pointers));
     for (const auto& search : searches) {
       results.push_back(search.result());
-      internal::explain(traits, search.bracket(), search.is_doubtful(), results.back());
+      internal::classify_failure(traits, search.bracket(), search.is_doubtful(), results.back());
     }
   } else {
     for (const auto& [ends, values] : segments)

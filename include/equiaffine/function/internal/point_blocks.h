@@ -17,14 +17,14 @@
 
 namespace equiaffine {
 
-/// The numbers of cells along each axis of the tiles into which a lattice is cut for the work of a thread. The spline
-/// coefficients that a tile needs, with a border as wide as the degree, fit into the cache of a processor. Words of 64
-/// signs make the cut along i cheap for Marching Cubes.
+/// The numbers of cells along each axis of a tile, the unit of work of a thread. The spline coefficients of a tile,
+/// with a border as wide as the degree, fit into a processor's cache. 64 cells along i match the words of 64 signs in
+/// Marching Cubes.
 inline constexpr std::array<std::size_t, 3> cells_of_tile = {64, 32, 32};
 
 namespace internal {
 
-/// Some points, sorted by the tiles of a lattice in which they lie.
+/// Points grouped by the tiles of a lattice that contain them.
 template <class Function, class Point>
 class Points_by_tile {
   using Cell = std::array<std::size_t, 3>;
@@ -48,7 +48,7 @@ public:
                           (*cell)[0] / cells_of_tile[0]);
         },
         1024);
-    std::vector<std::uint32_t> first_of(outside + 2); // the place of the first point of each tile, and of those outside
+    std::vector<std::uint32_t> first_of(outside + 2); // start of each tile's points, and of those outside
     for (const std::uint32_t t : tile_of) ++first_of[t + 1];
     std::partial_sum(first_of.begin(), first_of.end(), first_of.begin());
     numbers_.resize(points.size());
@@ -59,7 +59,7 @@ public:
         tasks_.push_back({first, std::min(first + points_of_task, first_of[t + 1]), t == outside});
   }
 
-  /// Calls visit(local, numbers) for points of the same tile, and for those outside of the lattice.
+  /// Calls visit(local, numbers) for groups of points of one tile, and for points outside of the lattice.
   template <class ConcurrencyTag, class Visit>
   void for_each_task(std::size_t margin, const Visit& visit) const {
     parallel_for<ConcurrencyTag>(0, tasks_.size(), [&](std::size_t n) {
@@ -71,15 +71,15 @@ public:
   }
 
 private:
-  /// So many points of a tile may share a task; usually a surface has less.
+  /// Upper bound on the points per task; a tile of a surface usually has fewer.
   static constexpr std::uint32_t points_of_task = 4096;
 
   struct Task {
-    std::uint32_t first, end; ///< places in numbers_
+    std::uint32_t first, end; ///< a range of numbers_
     bool is_outside;
   };
 
-  /// The block of the cells of some points, and of `margin` cells around it.
+  /// The block of the cells of some points, with `margin` more cells on all sides.
   Cell_block cells_around(std::span<const std::uint32_t> numbers, std::size_t margin) const {
     constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
     Cell_block block{{most, most, most}, {0, 0, 0}};
@@ -100,16 +100,16 @@ private:
 
   const Function& function_;
   std::span<const Point> points_;
-  std::vector<std::uint32_t> numbers_; // of the points, tile by tile
+  std::vector<std::uint32_t> numbers_; // indices of the points, tile by tile
   std::vector<Task> tasks_;
 };
 
 } // namespace internal
 
-/// Calls visit(local, numbers) for blocks of up to `most` points, which are all points together: `numbers` are their
-/// places among these, and `local` is a function that is to be evaluated at them. For a function that can be restricted
-/// to cells, blocks lie within tiles of its lattice, and `local` is restricted to their cells and `margin` more on all
-/// sides. Blocks are visited by several threads.
+/// Partitions the points into blocks of at most `most` points and calls visit(local, numbers) for each block, in
+/// several threads. `numbers` are the indices of its points; evaluate `local` at them. If the function can be
+/// restricted to cells, each block lies within one tile of its lattice, and `local` is restricted to the cells of the
+/// block and `margin` more on all sides.
 template <class ConcurrencyTag, class Function, class Point, class Visit>
 void for_each_point_block(const Function& function, std::span<const Point> points, std::size_t most, std::size_t margin,
                           const Visit& visit) {

@@ -19,17 +19,17 @@
 #include <string_view>
 #include <vector>
 
-// The library defines the member that has no body here.
+// The member function without a body is compiled into the library.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 namespace equiaffine {
 
-/// Writes binary PLY part by part: the header, then all vertices in any number of parts, then all faces.
+/// Writes binary PLY in parts: the header, then all vertices in any number of parts, then all faces.
 class Ply_writer {
 public:
-  /// Writes the header. `layout` has the names of the columns, whether there is a status, and the comments; what
-  /// numbers it has does not matter.
+  /// Writes the header. Only the names of the columns in `layout` are used, whether it has a status, and its
+  /// comments.
   Ply_writer(std::ostream& stream, std::size_t vertices, std::size_t faces, const Vertex_attributes& layout)
       : out_(stream) {
     write_header(vertices, faces, layout);
@@ -57,7 +57,7 @@ public:
     }
   }
 
-  /// Writes all faces, each a range of numbers of vertices.
+  /// Writes all faces, each a range of vertex indices.
   template <class Face>
   void write_faces(const std::vector<Face>& faces) {
     for (std::size_t first = 0; first < faces.size(); first += rows_at_once) {
@@ -80,12 +80,12 @@ public:
   void flush() { out_.flush(); }
 
 private:
-  /// So many rows with their attributes fit into the cache nearest to a processor.
+  /// The number of rows per block; with their attributes they fit into the first-level cache.
   static constexpr std::size_t rows_at_once = 256;
 
   void write_header(std::size_t vertices, std::size_t faces, const Vertex_attributes& layout);
 
-  /// Stores a number at a place of the block, the least significant byte first.
+  /// Stores a number at a position of the block, least significant byte first.
   template <class Number>
   void store(Number number, std::size_t place) {
     char* const bytes = &block_[place];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Text and binary numbers that are written in large blocks.
+// Writes text and binary numbers in large blocks.
 #ifndef EQUIAFFINE_IO_INTERNAL_BUFFERED_OUTPUT_H
 #define EQUIAFFINE_IO_INTERNAL_BUFFERED_OUTPUT_H
 
@@ -15,14 +15,14 @@
 #include <string>
 #include <string_view>
 
-// The library defines the functions that have no body here.
+// The functions without a body are compiled into the library.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 namespace equiaffine::internal {
 
-/// Writes text and little-endian binary numbers to a stream, in large blocks. Text does not depend on the stream's
-/// format or on any locale. The last block is written by `flush()`.
+/// Writes text and little-endian binary numbers to a stream in large blocks. Text does not depend on the stream's
+/// format or on any locale. Call `flush()` to write the last block.
 class Buffered_output {
 public:
   explicit Buffered_output(std::ostream& stream) : stream_(stream) { buffer_.reserve(2 * block_size); }
@@ -35,12 +35,12 @@ public:
 
   Buffered_output& operator<<(char character) { return *this << std::string_view(&character, 1); }
 
-  /// Writes a number with 17 significant digits, which give every double back; `nan` and zero get no sign.
+  /// Writes a number with 17 significant digits, which preserve every double; `nan` and zero have no sign.
   Buffered_output& operator<<(double number);
 
   Buffered_output& operator<<(std::size_t number);
 
-  /// Writes a large text, which the buffer does not delay.
+  /// Writes a large text directly, without buffering.
   void write_block(std::string_view text);
 
   template <class Number>
@@ -59,7 +59,7 @@ private:
   std::string buffer_;
 };
 
-/// The coordinates of a point as they are written.
+/// The coordinates of a point as doubles.
 template <class Point_3>
 std::array<double, 3> coordinates(const Point_3& p) {
   return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Property maps become the columns of a file, and the columns of a file become property maps.
+// Converts property maps to the columns of a file and back.
 #ifndef EQUIAFFINE_IO_INTERNAL_COLUMNS_OF_MAPS_H
 #define EQUIAFFINE_IO_INTERNAL_COLUMNS_OF_MAPS_H
 
@@ -23,7 +23,7 @@
 
 namespace equiaffine::internal {
 
-/// The maps that a file can hold beside that of the status, those of the principal curvatures after all others.
+/// The maps that a file can hold besides that of the status; those of the principal curvatures are last.
 using Column_tags =
     decltype(concatenated(concatenated(Attribute_tags(), Error_tags()), Tag_list<Vertex_principal_curvatures_tag>()));
 
@@ -31,7 +31,7 @@ template <class Parameters>
 inline constexpr bool
     has_maps_of_files = has_maps<Parameters>(Column_tags()) || has_parameter<Vertex_status_tag, Parameters>;
 
-/// Refuses named parameters that are neither these maps nor among the other tags.
+/// Rejects named parameters that are neither these maps nor among the other tags.
 template <class Parameters, class... Others>
 constexpr void check_map_file_parameters() {
   check_parameters_of_maps<Parameters, Vertex_status_tag, Geom_traits_tag, Verbose_tag, Others...>(Column_tags());
@@ -39,7 +39,7 @@ constexpr void check_map_file_parameters() {
 
 // Property maps become the columns of a file.
 
-/// The numbers in a value of a map: one, those of a vector or an array, or those of principal curvatures.
+/// The numbers in a value of a map: a number, the elements of a vector or an array, or principal curvatures.
 template <class Value>
 auto numbers_in(const Value& value) {
   if constexpr (std::is_arithmetic_v<Value>) return std::array<double, 1>{double(value)};
@@ -55,7 +55,7 @@ auto numbers_in(const Value& value) {
   }
 }
 
-/// Appends columns with the numbers of the values that `value_at` has for the elements, as many as there are names.
+/// Appends one column per name with the numbers of `value_at(element)` for all elements.
 template <class Names, class Elements, class Value_at>
 void append_columns(Vertex_attributes& attributes, const Names& names, Elements&& elements, const Value_at& value_at,
                     double sign = 1) {
@@ -64,12 +64,12 @@ void append_columns(Vertex_attributes& attributes, const Names& names, Elements&
   for (auto&& element : elements) {
     const auto numbers = numbers_in(value_at(element));
     static_assert(std::tuple_size_v<std::decay_t<decltype(numbers)>> == std::tuple_size_v<Names>,
-                  "this property map has vectors in the place of numbers, or the other way round");
+                  "the values of this property map are vectors instead of numbers, or numbers instead of vectors");
     for (std::size_t i = 0; i < numbers.size(); ++i) attributes.columns[first + i].values.push_back(sign * numbers[i]);
   }
 }
 
-/// The columns of the maps that are given, in the order of the tags.
+/// The columns of the given maps, in the order of the tags.
 template <class Elements, class Parameters, class... Tags>
 Vertex_attributes columns_of_given_maps(Elements&& elements, const Parameters& parameters, Tag_list<Tags...>) {
   Vertex_attributes result;
@@ -91,7 +91,7 @@ Vertex_attributes columns_of_given_maps(Elements&& elements, const Parameters& p
   return result;
 }
 
-/// The name of a map without the kind of its elements, as "v:", and without what would end it in a file.
+/// The name of a map without the prefix "v:", and with _ for characters that would end a name in a file.
 inline std::string column_name(const std::string& key) {
   std::string name = key.substr(key.starts_with("v:") ? 2 : 0);
   const auto ends_a_name = [](unsigned char c) {
@@ -101,7 +101,7 @@ inline std::string column_name(const std::string& key) {
   return name;
 }
 
-/// The columns of all maps under names whose values are numbers or vectors, and the status.
+/// The columns of all named maps whose values are numbers or vectors, and the status.
 template <class Container, class Elements>
 Vertex_attributes columns_of_named_maps(const Container& container, Elements&& elements) {
   using Maps = Named_maps<Container>;
@@ -117,7 +117,7 @@ Vertex_attributes columns_of_named_maps(const Container& container, Elements&& e
     (append(key, std::type_identity<T>()), ...);
   };
   for (const std::string& key : Maps::keys(container)) {
-    if (key == "v:removed") continue; // is of the mesh itself
+    if (key == "v:removed") continue; // internal to the mesh
     append_numbers(key, Numbers_of_maps());
     append(key, std::type_identity<typename Maps::Vector_3>());
     if (column_name(key) != "status") continue;
@@ -129,7 +129,7 @@ Vertex_attributes columns_of_named_maps(const Container& container, Elements&& e
   return result;
 }
 
-/// The columns of the maps that are given, or if there are none, of those that the container has under names.
+/// The columns of the given maps, or of the container's named maps if none are given.
 template <class Container, class Elements, class Parameters>
 Vertex_attributes columns_of_maps(Container& container, Elements&& elements, const Parameters& parameters) {
   Vertex_attributes result;
@@ -146,23 +146,22 @@ Vertex_attributes columns_of_maps(Container& container, Elements&& elements, con
 // The columns of a file become property maps.
 
 [[noreturn]] inline void fail_without_column(const std::string& name, const std::string& path) {
-  fail_to_read(path, "it has no column '" + name + "' for a property map", "leave out the map, or name another file");
+  fail_to_read(path, "it has no column '" + name + "' for a property map", "omit the map, or give another file");
 }
 
-/// Adds points to a container, or to a point set, which calls that `insert`.
+/// Adds points to a container, or to a point set, where the function is called `insert`.
 template <class Points, class Added>
 void append_points(Points& points, const std::vector<Added>& added) {
   if constexpr (!Point_set<Points>)
     static_assert(
         std::is_constructible_v<typename Points::value_type, double, double, double>,
-        "points are read into a container of points, or into a CGAL::Point_set_3, which keeps what comes with "
-        "them");
+        "points are read into a container of points, or into a CGAL::Point_set_3, which also keeps their attributes");
   for (const Added& p : added)
     if constexpr (Point_set<Points>) points.insert(typename Points::Point_3(p.x(), p.y(), p.z()));
     else points.push_back(typename Points::value_type(p.x(), p.y(), p.z()));
 }
 
-/// The statuses whose words are the column `status` of a table, if there is one and it has no other words.
+/// The statuses in the column `status` of a table; nothing if there is none, or if it contains other words.
 inline std::optional<std::vector<Point_status>> status_in_cells(const std::vector<std::string>& header,
                                                                 const std::vector<std::string>& cells) {
   const auto place = std::size_t(std::find(header.begin(), header.end(), "status") - header.begin());
@@ -177,8 +176,8 @@ inline std::optional<std::vector<Point_status>> status_in_cells(const std::vecto
   return result;
 }
 
-/// Fills the maps that are given, or if there are none, adds maps under names to a container that can have them.
-/// \throw Input_error if the file has no columns for a map that is given
+/// Fills the given maps, or adds named maps to a container that supports them if none are given.
+/// \throw Input_error if the file has no column for a given map
 template <class Container, class Elements, class Parameters>
 void fill_maps(Container& container, Elements&& elements, const Parameters& parameters,
                Vertex_attributes&& attributes, const std::string& path) {

@@ -19,8 +19,8 @@
 
 namespace equiaffine::internal {
 
-/// The numbers of the vertices of one cell, in the slots of Case_table. They are kept up to date on the way along a row
-/// of cells. The slot of an edge without a vertex has the number of the next vertex along the row on such an edge.
+/// The vertices of one cell, in the slots of Case_table. They are updated incrementally along a row of cells. The
+/// slot of an edge without a vertex has the next vertex along the row on such an edge.
 class Cell_vertices {
 public:
   using Index = Isosurface_numbering::Index;
@@ -33,12 +33,12 @@ public:
     for (std::size_t n = 0; n < 8; ++n) slots_[n] = numbering.vertex_from(i, j + dj[n], k + dk[n], axes[n]);
   }
 
-  /// Sets the vertices at the upper end of the cell: the row of an edge there goes on after the edge at the lower end.
+  /// Sets the vertices at the upper end of the cell: an edge there follows the edge at the lower end in its row.
   void enter_cell(const Crossed& crossed) {
     for (std::size_t n = lower; n < upper; ++n) slots_[n + upper - lower] = slots_[n] + crossed[n];
   }
 
-  /// Goes on to the next cell of the row, whose lower end is the upper end of this one.
+  /// Moves to the next cell of the row, whose lower end is the upper end of this one.
   void leave_cell(const Crossed& crossed) {
     for (std::size_t n = 0; n < lower; ++n) slots_[n] += crossed[n];
     for (std::size_t n = lower; n < upper; ++n) slots_[n] = slots_[n + upper - lower];
@@ -46,7 +46,7 @@ public:
 
   std::size_t first_inner() const { return slots_[inner]; }
 
-  /// The inner vertices of a cell have successive numbers.
+  /// Sets the inner vertices of the cell, which have consecutive indices.
   void set_first_inner(std::size_t vertex) {
     for (std::size_t n = 0; n < 3; ++n) slots_[inner + n] = Index(vertex + n);
   }
@@ -62,7 +62,7 @@ private:
 
 using Index_triangle = std::array<Isosurface_numbering::Index, 3>;
 
-/// Does the work of for_each_vertex().
+/// Implements for_each_vertex().
 template <bool HasUndefined, class Place>
 void visit_vertices(const Isosurface_plan& plan, const Node_block& block, const Place& place) {
   const Node_signs& signs = plan.signs;
@@ -88,8 +88,8 @@ void visit_vertices(const Isosurface_plan& plan, const Node_block& block, const 
     }
 }
 
-/// Calls place(vertex, i, j, k, axis) for every vertex on an edge that begins at a node of a block, which begins and
-/// ends with a word of signs or a row. (i, j, k) is the node at which the edge begins, and `axis` is a
+/// Calls place(vertex, i, j, k, axis) for every vertex on an edge that begins at a node of a block. The block must
+/// begin and end with a word of signs or a row. (i, j, k) is the node at which the edge begins; `axis` is a
 /// std::integral_constant.
 template <class Place>
 void for_each_vertex(const Isosurface_plan& plan, const Node_block& block, const Place& place) {
@@ -102,8 +102,7 @@ inline Node_block plane_of_nodes(const Isosurface_plan& plan, std::size_t k) {
   return {{{0, size[0]}, {0, size[1]}, {k, k + 1}}};
 }
 
-/// Calls visit(vertices, edges) for the vertices on edges that begin at nodes of a block, with up to 64 of them at a
-/// time.
+/// Calls visit(vertices, edges) for batches of up to 64 vertices on edges that begin at nodes of a block.
 template <class Visit>
 void for_each_batch(const Isosurface_plan& plan, const Node_block& block, const Visit& visit) {
   constexpr std::size_t batch = 64;
@@ -122,9 +121,8 @@ void for_each_batch(const Isosurface_plan& plan, const Node_block& block, const 
   if (!edges.empty()) visit_batch();
 }
 
-/// Writes the n triangles of a cell, whose vertices have the given slots. If there is room, triangles_of_most_cells
-/// triangles are written whatever n is, for speed: a branch that the processor predicts wrongly costs more than
-/// triangles that are overwritten afterwards.
+/// Writes the n triangles of a cell, whose vertices have the given slots. If there is room, it always writes at least
+/// triangles_of_most_cells triangles: overwriting the excess later costs less than a mispredicted branch.
 inline void write_triangles_of_cell(const Cell_vertices& vertices, const std::uint8_t* slot, std::size_t n,
                                     Index_triangle* out, const Index_triangle* end) {
   std::size_t t = 0;
@@ -137,7 +135,7 @@ inline void write_triangles_of_cell(const Cell_vertices& vertices, const std::ui
   while (t < n) write_one();
 }
 
-/// Writes the triangles of the cells between planes k and k + 1. write_triangles() says what the arguments are.
+/// Writes the triangles of the cells between planes k and k + 1; see write_triangles() for the arguments.
 template <bool HasUndefined, class PlaceInner>
 void write_triangles_of_layer(const Isosurface_plan& plan, std::size_t k, Index_triangle* triangles,
                               bool is_left_handed, Grid_rows& rows, const PlaceInner& place_inner) {
@@ -153,15 +151,16 @@ void write_triangles_of_layer(const Isosurface_plan& plan, std::size_t k, Index_
   vertices.set_first_inner(numbering.inner_vertices_of_layer(k).first);
   for (std::size_t j = 0; j + 1 < plan.signs.size()[1]; ++j) {
     if (numbering.row(j, k).triangles == 0) continue;
-    // If all nodes have values, every vertex of these rows is in a visited cell, and the numbers of vertices are
-    // counted on from cell to cell. Else some vertices are only in cells of other rows, and every cell looks them up.
+    // If all nodes have values, every vertex of these rows is in a visited cell, and vertices are counted from cell
+    // to
+    // cell. Otherwise some vertices are only in cells of other rows, and every cell looks them up.
     if constexpr (!HasUndefined) vertices.start_at(numbering, 0, j, k);
     for_each_active_cell<HasUndefined>(plan.signs, j, k, [&](std::size_t i, unsigned corner_signs) {
       if constexpr (HasUndefined) vertices.start_at(numbering, i, j, k);
       const auto& crossed = table.crossed[corner_signs];
       vertices.enter_cell(crossed);
       const Case_table::Entry* entry = &table.of_signs[corner_signs];
-      std::size_t sub_case = 0; // is used for inner vertices, which only ambiguous cells have
+      std::size_t sub_case = 0; // used for inner vertices, which only ambiguous cells have
       if (entry->is_ambiguous) {
         sub_case = *next_sub_case++;
         entry = &table.of_sub_case[sub_case];
@@ -178,10 +177,10 @@ void write_triangles_of_layer(const Isosurface_plan& plan, std::size_t k, Index_
   }
 }
 
-/// Writes all triangles, the other way round for a left-handed grid. Calls place_inner(vertex, i, j, k, edges, written)
-/// for every cell (i, j, k) with inner vertices: `vertex` is the number of the first of them, edges[n] are the edges of
-/// the cell amid whose vertices inner vertex n lies, and `written` are the triangles of the cell. `place_inner` returns
-/// whether one of these triangles has no area. Returns the rows of the cells that have such a triangle.
+/// Writes all triangles, with opposite orientation for a left-handed grid. Calls place_inner(vertex, i, j, k, edges,
+/// written) for every cell (i, j, k) with inner vertices: `vertex` is the first of them, inner vertex n lies amid the
+/// vertices on the cell's edges edges[n], and `written` are the triangles of the cell. `place_inner` returns whether
+/// one of these triangles has no area. Returns the rows of the cells that have such a triangle.
 template <class ConcurrencyTag, class PlaceInner>
 Grid_rows write_triangles(const Isosurface_plan& plan, Index_triangle* triangles, bool is_left_handed,
                           const PlaceInner& place_inner) {
@@ -194,16 +193,16 @@ Grid_rows write_triangles(const Isosurface_plan& plan, Index_triangle* triangles
   return rows;
 }
 
-// Vertices of Marching Cubes are known by their places in the grid, whatever part of it they were found in.
+// A vertex of Marching Cubes is identified by its place in the grid, in whatever part of the grid it was found.
 
-/// The place of a vertex: on the edge that begins at a node along the axis `slot`, or, from slot 3 on, in the cell that
-/// begins there.
+/// The place of a vertex: on the edge that begins at `node` along the axis `slot` < 3, or in the cell that begins
+/// there.
 struct Vertex_place {
   std::array<std::size_t, 3> node;
   std::size_t slot;
 };
 
-/// The place of inner vertex n, which are ordered like their cells.
+/// The place of inner vertex n. Inner vertices are in the order of their cells.
 template <class FT>
 Vertex_place place_of_inner_vertex(const std::vector<Inner_vertex<FT>>& inner_vertices, std::size_t n) {
   const auto& cell = inner_vertices[n].cell;
@@ -232,8 +231,8 @@ std::vector<Vertex_id> vertex_ids(const Function& function, const Isosurface_pla
   return ids;
 }
 
-/// Gives the copies of a vertex, which follow it, ids of their own.
-inline void tell_copies_apart(std::vector<Vertex_id>& ids) {
+/// Gives distinct ids to the copies of a vertex, which directly follow it.
+inline void distinguish_copies(std::vector<Vertex_id>& ids) {
   constexpr Vertex_id between_copies = 16; // more than the slots of a node
   for (std::size_t v = 1; v < ids.size(); ++v) {
     const Vertex_id before = ids[v - 1];

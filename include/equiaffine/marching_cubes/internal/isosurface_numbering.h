@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What Marching Cubes asks of a grid, and the numbers of the vertices and triangles of a surface in it.
+// The interface of a grid for Marching Cubes, and the numbering of the vertices and triangles of a surface in it.
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_NUMBERING_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_ISOSURFACE_NUMBERING_H
 
@@ -19,20 +19,20 @@
 
 namespace equiaffine::internal {
 
-// Marching Cubes works on a `Grid`, which is a Lattice_function or an Array_grid and knows values and positions:
+// Marching Cubes works on a `Grid`, either a Lattice_function or an Array_grid, with these members:
 //
 // FT, Point                       types of a number and a position
-// isovalue()                      the value that the surface has
+// isovalue()                      the value of the function on the surface
 // cell_values({i, j, k})          the values at the corners of a cell
-// edge_vertex({i, j, k}, axis)    the vertex on an edge at whose ends the values have different signs, or else
+// edge_vertex({i, j, k}, axis)    the vertex on an edge at whose ends the values have different signs; or instead
 // edges(grid_edges)               the ends of many edges and the values there
 // point({i, j, k}, offset)        a position in a cell, where `offset` is in steps of the grid
 // coordinates(point)              an array of three numbers
 // is_left_handed()                whether the steps along i, j, k are a left-handed system
 // is_nearer_to_end(edge, point)   whether a point on an edge is nearer to the end of the edge than to its beginning
 // moved(point, axis, steps)       a point, moved along an axis by a fraction of a step
-// index_in_whole({i, j, k})       the number of a node in the grid that this one is a part of
-// is_at_cut(edge)                 whether that grid goes on beyond a side on which an edge lies
+// index_in_whole({i, j, k})       the index of a node in the grid that this one is a part of
+// is_at_cut(edge)                 whether an edge lies on a side of this grid beyond which that grid continues
 
 /// The edge of a grid that begins at a node.
 struct Grid_edge {
@@ -40,7 +40,8 @@ struct Grid_edge {
   std::size_t axis;
 };
 
-/// A vertex on an edge of a grid, where the linear interpolant of the values at the ends is the isovalue.
+/// A vertex on an edge of a grid, at the point where the linear interpolant of the values at the ends is the
+/// isovalue.
 template <class Point>
 struct Edge_vertex {
   Point point;
@@ -54,8 +55,8 @@ struct Inner_vertex {
   std::array<FT, 3> offset; ///< from the first node of the cell, in steps of the grid
 };
 
-/// A selection of the rows of nodes along i of a grid. Different threads may add rows of different planes. A row may be
-/// added more than once, and is kept once if no other row of its plane is added in between.
+/// A set of rows of nodes along i of a grid. Threads may add rows of different planes concurrently. Repeated
+/// additions of the same row are merged unless another row of its plane was added in between.
 class Grid_rows {
 public:
   explicit Grid_rows(std::size_t number_of_planes) : planes_(number_of_planes) {}
@@ -85,12 +86,13 @@ private:
   std::vector<std::vector<std::size_t>> planes_; // the j of the rows in every plane
 };
 
-/// The numbers of the vertices and triangles of a surface in a grid. The vertices of a row of nodes are those on its
-/// edges along i, then j, then k, each in the order of i: the number of a vertex is that of its row and kind plus the
-/// number of crossed edges before it, so no vertex is ever looked up. After those of a plane of nodes come the inner
-/// vertices of the cells above it. Triangles are ordered like their cells.
+/// The indices of the vertices and triangles of a surface in a grid. A row of nodes has the vertices on its edges
+/// along i, then j, then k, each in the order of i. The index of a vertex is that of the first one of its row and
+/// axis plus the number of crossed edges before it, so that vertices never need a lookup. The vertices of a plane of
+/// nodes are followed by the inner vertices of the cells above it. Triangles are in the order of their cells.
 ///
-/// Rows and layers first hold counts, which `turn_counts_into_numbers` replaces. Memory: 16 bytes per row of nodes.
+/// Rows and layers initially hold counts, which `turn_counts_into_numbers` replaces by indices. Memory: 16 bytes per
+/// row of nodes.
 class Isosurface_numbering {
 public:
   using Word = Node_signs::Word;
@@ -98,7 +100,7 @@ public:
 
   /// A row of nodes along i, and the row of cells that begins there.
   struct Row {
-    std::array<Index, 3> first{}; ///< the first vertex on an edge along each axis; before that, their number
+    std::array<Index, 3> first{}; ///< the first vertex on an edge along each axis; initially their number
     Index triangles = 0;          ///< the number of triangles in the row of cells
   };
   /// The cells between two planes of nodes.
@@ -130,7 +132,7 @@ public:
     }
     number_vertices(rows_.back());
     if (number_of_vertices_ > std::numeric_limits<Index>::max())
-      throw std::length_error("a mesh would have more than 2^32 vertices: make it in slabs, or use a coarser grid");
+      throw std::length_error("a mesh has more than 2^32 vertices: compute it in slabs, or use a coarser grid");
   }
 
   std::size_t number_of_planes() const { return layers_.size(); }
@@ -146,7 +148,7 @@ public:
   Index_range vertices_of_planes(std::size_t first, std::size_t end) const {
     return {row(0, first).first[0], row(0, end).first[0]};
   }
-  /// The place of an inner vertex of layer k among all inner vertices.
+  /// The index of an inner vertex of layer k among all inner vertices.
   std::size_t place_of_inner(std::size_t vertex, std::size_t k) const {
     return vertex - layers_[k].first_inner_vertex + layers_[k].inner_vertices_before;
   }
@@ -172,7 +174,7 @@ public:
     }
   }
 
-  /// All triangles in the rows of cells at some rows of nodes, ascending, each of them once.
+  /// All triangles in the rows of cells at some rows of nodes, in ascending order without repetition.
   std::vector<std::size_t> triangles_around(const Grid_rows& rows) const {
     std::vector<std::size_t> result;
     if (rows.is_empty()) return result;
@@ -189,7 +191,7 @@ public:
     return result;
   }
 
-  /// The place among all inner vertices; nothing for a vertex on an edge.
+  /// The index among all inner vertices; nothing for a vertex on an edge.
   std::optional<std::size_t> place_of_inner(std::size_t vertex) const {
     const std::size_t k = row_of(vertex) / signs_.size()[1];
     return vertex < layers_[k].first_inner_vertex ? std::nullopt : std::optional(place_of_inner(vertex, k));
@@ -204,8 +206,7 @@ public:
     return Grid_edge{{node_of_crossed_edge(vertex - first[axis], j, k, axis), j, k}, axis};
   }
 
-  /// The number of the first vertex in a row of nodes that lies on an edge along `axis` which begins at i or further
-  /// on.
+  /// The first vertex in a row of nodes on an edge along `axis` that begins at i or later.
   Index vertex_from(std::size_t i, std::size_t j, std::size_t k, std::size_t axis) const {
     Index vertex = row(j, k).first[axis];
     const Node_signs::Edge_row<true> edges(signs_, j, k);
@@ -223,14 +224,14 @@ private:
     }
   }
 
-  /// The row of nodes at which a vertex lies, or the last one before an inner vertex.
+  /// The row of nodes of a vertex, or the last row before an inner vertex.
   std::size_t row_of(std::size_t vertex) const {
     const auto after = std::upper_bound(rows_.begin(), rows_.end(), vertex,
                                         [](std::size_t v, const Row& r) { return v < r.first[0]; });
     return std::size_t(after - rows_.begin()) - 1;
   }
 
-  /// The i at which the n-th of the crossed edges along `axis` begins in a row of nodes, counted from 0.
+  /// The i at which the n-th crossed edge along `axis` in a row of nodes begins; n counts from 0.
   std::size_t node_of_crossed_edge(std::size_t n, std::size_t j, std::size_t k, std::size_t axis) const {
     const Node_signs::Edge_row<true> edges(signs_, j, k);
     for (std::size_t w = 0;; ++w) {
@@ -245,7 +246,7 @@ private:
   }
 
   const Node_signs& signs_;
-  std::vector<Row> rows_; // one more follows the last
+  std::vector<Row> rows_; // and one past the last
   std::vector<Layer> layers_;
   std::size_t number_of_vertices_ = 0, number_of_inner_vertices_ = 0, number_of_triangles_ = 0;
 };

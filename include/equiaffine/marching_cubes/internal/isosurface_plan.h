@@ -28,14 +28,14 @@
 
 namespace equiaffine::internal {
 
-// The topology of the set where the trilinear interpolant f of eight values is positive, decided exactly. Everywhere a
-// value of zero is taken as positive: of a corner, of a saddle on a face, of a saddle inside. So the topology is that
-// of the set where f is greater than -e, for all small e > 0: one and the same perturbation for all cells.
+// Exact decisions on the topology of the set where the trilinear interpolant f of eight values is positive. A value
+// of zero counts as positive everywhere: at a corner, at a saddle on a face, and at a saddle inside. The topology is
+// hence that of the set where f is greater than -e for all small e > 0, which is the same perturbation in all cells.
 
-/// Computes signs of homogeneous polynomials in numbers of magnitude up to `scale`, and remembers whether all were
-/// certain. The tolerances are generous bounds of the rounding errors of the expressions in `corners_joined_inside`:
-/// with unit roundoff u these err by less than 80 u scale^2, 400 u scale^3 and 3000 u scale^4, errors of u in the
-/// numbers included.
+/// Computes signs of homogeneous polynomials in numbers of magnitude up to `scale`, and records whether all were
+/// certain. The tolerances are generous bounds of the rounding errors of the expressions in `corners_joined_inside`.
+/// With unit roundoff u, and including errors of u in the numbers, these are below 80 u scale^2, 400 u scale^3, and
+/// 3000 u scale^4.
 template <class FT>
 class Filtered_sign {
 public:
@@ -63,13 +63,14 @@ struct Exact_sign {
   }
 };
 
-/// Two corners of the same sign that are joined in the horizontal slice in which the saddle of f is extremal, facing
-/// each other diagonally there; nothing if there is no such slice in the cell.
+/// Two corners of the same sign, on diagonally opposite vertical edges, that are joined in the horizontal slice where
+/// the saddle of f is extremal; nothing if there is no such slice in the cell.
 ///
-/// f is linear on the four vertical edges and bilinear in a slice, whose positive part has as many components as it has
-/// positive corners on vertical edges, but for two diagonal ones, which are joined if D(z) = f00 f11 - f10 f01 says so.
-/// So regions of the cell's surface are joined inside only where D, a quadratic polynomial A z^2 + B z + C, changes its
-/// sign twice between slices where other corners vanish, hence at its extremum z = -B / 2A.
+/// f is linear on the four vertical edges and bilinear in a slice. The signs at the corners of a slice determine the
+/// components of its positive part, except for two diagonal positive corners, which are joined depending on the sign
+/// of D(z) = f00 f11 - f10 f01. So regions of the cell's surface are joined inside only if D, a quadratic polynomial
+/// A z^2 + B z + C, changes its sign twice between slices where other corners vanish, hence at its extremum
+/// z = -B / 2A.
 template <class Number, class Sign>
 std::optional<std::pair<std::size_t, std::size_t>> corners_joined_inside(const std::array<Number, 8>& f, Sign& sign) {
   const std::array<Number, 4> slope = {f[4] - f[0], f[5] - f[1], f[6] - f[2], f[7] - f[3]};
@@ -93,8 +94,8 @@ std::optional<std::pair<std::size_t, std::size_t>> corners_joined_inside(const s
   return std::pair(end(c), end(3 - c));
 }
 
-/// Chooses the sub-case of a cell with the values v[c] - isovalue at its corners. Exact for float and double; for other
-/// number types as exact as their arithmetic.
+/// Chooses the sub-case of a cell with the values v[c] - isovalue at its corners. Exact for float and double; with
+/// other number types as exact as their arithmetic.
 template <class FT>
 class Trilinear_cell {
   static constexpr bool has_exact_signs =
@@ -127,8 +128,8 @@ public:
   }
 
 private:
-  /// Whether the positive corners of a face with diagonal signs are joined on it. The order of the corners is that of
-  /// their numbers, so that both cells at the face compute the same.
+  /// Whether the positive corners of a face with diagonal signs are joined on it. The corners are taken in ascending
+  /// order, so that both cells at the face compute the same.
   bool are_positive_joined_on(int face) const {
     static constexpr std::uint8_t corners[6][4] = {{0, 2, 4, 6}, {1, 3, 5, 7}, {0, 1, 4, 5},
                                                    {2, 3, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}};
@@ -136,7 +137,7 @@ private:
     const Number p = f_[c[0]] * f_[c[3]], q = f_[c[1]] * f_[c[2]];
     const bool is_first_positive = v_[c[0]] >= isovalue_;
     if constexpr (has_exact_signs) {
-      // The relative bound covers 9 roundings; above the absolute one, underflow does no harm.
+      // The relative bound covers 9 roundings; the absolute one excludes harmful underflow.
       constexpr double relative = 1e-15, absolute = 1e-290;
       const double difference = p - q;
       if (!(std::abs(difference) > relative * (std::abs(p) + std::abs(q)) + absolute) ||
@@ -148,12 +149,12 @@ private:
     return is_first_positive ? p >= q : p <= q;
   }
 
-  /// Two corners that a tunnel joins, as in `corners_joined_inside`.
+  /// Two corners joined by a tunnel, as in `corners_joined_inside`.
   std::optional<std::pair<std::size_t, std::size_t>> joined_inside() const {
     if constexpr (has_exact_signs) {
       double scale = 0;
       for (const double x : f_) scale = std::max(scale, std::abs(x));
-      if (scale > 1e-60 && scale < 1e60) { // no product underflows to harm or overflows
+      if (scale > 1e-60 && scale < 1e60) { // no product overflows, and none underflows harmfully
         Filtered_sign<double> sign(scale);
         const auto result = corners_joined_inside(f_, sign);
         if (sign.is_certain()) return result;
@@ -165,7 +166,7 @@ private:
     return corners_joined_inside(f, sign);
   }
 
-  /// The difference of a value and the isovalue; an infinite value counts as the largest number.
+  /// The difference of a value and the isovalue; infinite values are clamped to the largest finite number.
   Exact exact(std::size_t c) const {
     if constexpr (has_exact_signs) {
       constexpr FT lowest = std::numeric_limits<FT>::lowest(), largest = std::numeric_limits<FT>::max();
@@ -244,9 +245,8 @@ void for_each_active_cell(const Node_signs& signs, std::size_t j, std::size_t k,
   });
 }
 
-/// The plan by which the vertices and triangles of an isosurface are made: their numbers, so that planes of nodes and
-/// layers of cells can be worked on in any order, and the sub-cases of cells whose signs are ambiguous, which take 2
-/// bytes each.
+/// What determines the vertices and triangles of an isosurface: their indices, so that planes of nodes and layers of
+/// cells can be processed in any order, and the sub-cases of cells with ambiguous signs, 2 bytes each.
 struct Isosurface_plan {
   const Node_signs& signs;
   const Case_table& table;
@@ -300,7 +300,7 @@ void plan_layer(Isosurface_plan& plan, std::size_t k, const Choose& choose) {
   }
 }
 
-/// Makes the plan of the surface in a grid. In ambiguous cells the trilinear interpolant decides. The plan keeps
+/// Computes the plan of the surface in a grid. The trilinear interpolant decides in ambiguous cells. The plan keeps
 /// references to the signs and the table.
 template <class ConcurrencyTag, class Grid>
 Isosurface_plan plan_isosurface(const Node_signs& signs, const Grid& grid, const Case_table& table) {

@@ -14,7 +14,7 @@
 
 namespace equiaffine::internal {
 
-/// The values of a function at the nodes of a lattice, where samples are used if there are any: a Grid as in
+/// The values of a function at the nodes of a lattice, taken from samples if there are any: a Grid as in
 /// isosurface_numbering.h.
 template <class Traits>
 class Lattice_function {
@@ -39,13 +39,13 @@ public:
   Lattice_function(const Traits& traits, const Lattice_3<Kernel>& lattice)
       : Lattice_function(Batch_function_traits_3<Traits>(traits), lattice, {0, 0, 0}, lattice.size()) {}
 
-  /// The nodes from `first` up to, but without, `end` along each axis of the lattice. Nodes have the numbers that they
-  /// have in this part.
+  /// The part with the nodes from `first` up to, but not including, `end` along each axis. It has its own node
+  /// indices, which begin at 0.
   Lattice_function part(const Node& first, const Node& end) const {
     return Lattice_function(traits_, lattice_, first, {end[0] - first[0], end[1] - first[1], end[2] - first[2]});
   }
 
-  /// The same function for a block of cells, which may take less memory there.
+  /// The same function for a block of cells, which may take less memory.
   Lattice_function
   restricted_to_cells(const Cell_block& cells) const requires CellwiseImplicitFunctionTraits_3<Traits> {
     return Lattice_function(traits_.restricted_to_cells({in_whole(cells.first), in_whole(cells.end)}), lattice_, first_,
@@ -53,7 +53,7 @@ public:
   }
 
   const Node& size() const { return size_; }   ///< the number of nodes along each axis
-  const Node& first() const { return first_; } ///< the node of the lattice that is the first of this part
+  const Node& first() const { return first_; } ///< the node of the lattice at which this part begins
 
   std::size_t index_in_whole(const Node& n) const {
     const Node node = in_whole(n);
@@ -82,7 +82,7 @@ public:
                           number(first_[2] + cell[2]) + offset[2]);
   }
 
-  /// The value at a node, which lies at p.
+  /// The value at node n, whose position is p.
   FT value(const Node& n, const Point_3& p) const {
     if constexpr (has_samples) return traits_.sample(first_[0] + n[0], first_[1] + n[1], first_[2] + n[2]);
     else return traits_.value(p);
@@ -99,7 +99,7 @@ public:
     return {ends, {value(e.node, ends[0]), value(end, ends[1])}};
   }
 
-  /// Does what edge() does for many edges.
+  /// The same for many edges at once.
   std::vector<Edge> edges(std::span<const Grid_edge> grid_edges) const {
     std::vector<Edge> result(grid_edges.size());
     if constexpr (has_samples) {
@@ -136,7 +136,7 @@ public:
     return f;
   }
 
-  /// The number of evaluations of the function that the values at n nodes take.
+  /// The number of evaluations of the function for the values at n nodes.
   static constexpr std::size_t evaluations(std::size_t n) { return has_samples ? 0 : n; }
 
 private:
@@ -153,7 +153,7 @@ private:
   static bool coincide(const Point_3& p, const Point_3& q) {
     return p.x() == q.x() && p.y() == q.y() && p.z() == q.z();
   }
-  static FT number(std::size_t n) { return FT(double(std::ptrdiff_t(n))); } // of a signed number in one instruction
+  static FT number(std::size_t n) { return FT(double(std::ptrdiff_t(n))); } // signed: converts in one instruction
 
   const Batch_function_traits_3<Traits> traits_;
   const Lattice_3<Kernel> lattice_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Marching Cubes in passes that are parallel over planes of nodes or layers of cells: plan_isosurface finds the
-// sub-case of every cell and numbers vertices and triangles, place_linearly makes them, and repair_mesh removes
+// sub-case of every cell and numbers vertices and triangles, place_linearly computes them, and repair_mesh removes
 // triangles without area.
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_LINEAR_ISOSURFACE_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_LINEAR_ISOSURFACE_H
@@ -38,8 +38,8 @@ std::pair<FT, FT> trilinear(const std::array<FT, 8>& f, const std::array<FT, 3>&
   return {ends[0] + p[axis] * slope, slope};
 }
 
-/// The place of a vertex amid those on some edges of a cell, in the coordinates of the cell: their mean, moved along
-/// the axis of the steepest slope onto the surface of the trilinear interpolant if that is within the cell.
+/// The position of an inner vertex in a cell, in cell coordinates: the mean of the vertices on some edges, moved
+/// along the axis of the steepest slope onto the zero set of the trilinear interpolant if that stays within the cell.
 template <class FT>
 std::array<FT, 3> inner_vertex(const std::array<FT, 8>& f, std::span<const std::uint8_t> edges) {
   using std::abs;
@@ -59,7 +59,7 @@ std::array<FT, 3> inner_vertex(const std::array<FT, 8>& f, std::span<const std::
   return p;
 }
 
-/// Writes the points of the vertices on edges. Returns the rows of nodes at which a vertex lies.
+/// Writes the points of the vertices on edges. Returns the rows in which a vertex lies at a node.
 template <class ConcurrencyTag, class Grid>
 Grid_rows place_on_edges(const Grid& grid, const Isosurface_plan& plan, typename Grid::Point* points) {
   const std::size_t planes = plan.signs.size()[2];
@@ -86,8 +86,8 @@ Grid_rows place_on_edges(const Grid& grid, const Isosurface_plan& plan, typename
   return rows;
 }
 
-/// Writes the points of all vertices and the triangles. Calls keep_inner(vertex, cell, offset) for every vertex inside
-/// a cell. Returns the rows of nodes around which triangles may have no area.
+/// Writes the points of all vertices and the triangles. Calls keep_inner(vertex, cell, offset) for every vertex
+/// inside a cell. Returns the rows of nodes around which triangles may have no area.
 template <class ConcurrencyTag, class Grid, class KeepInner>
 Grid_rows place_linearly(const Grid& grid, const Isosurface_plan& plan, typename Grid::Point* points,
                          Index_triangle* triangles, const KeepInner& keep_inner) {
@@ -108,12 +108,12 @@ Grid_rows place_linearly(const Grid& grid, const Isosurface_plan& plan, typename
   return suspects;
 }
 
-/// A report says what was repaired, and whether a part of the grid is too small to know what is to be repaired.
+/// The repairs, and whether the part of the grid is too small to decide on them.
 struct Repair_report : Isosurface_repairs {
   bool is_undecided = false;
 };
 
-/// Removes triangles without area around the given rows. `properties` are arrays with an entry per vertex.
+/// Removes triangles without area around the given rows. `properties` are arrays with one entry per vertex.
 template <class Grid, class Triangles, class Points, class... Properties>
 Repair_report repair_zero_areas(const Grid& grid, const Isosurface_numbering& numbering,
                                 const std::vector<Inner_vertex<typename Grid::FT>>& inner_vertices,
@@ -143,7 +143,7 @@ Repair_report repair_zero_areas(const Grid& grid, const Isosurface_numbering& nu
   return {repairs, repair.is_undecided()};
 }
 
-/// Gives parts of a surface that touch in a vertex vertices of their own. `properties` are arrays with an entry per
+/// Separates parts of a surface that touch in a vertex by duplicating it. `properties` are arrays with one entry per
 /// vertex.
 template <class Triangles, class Points, class... Properties>
 void split_parts(Layer_bounds& bounds, Triangles& triangles, Points& points, Properties&... properties) {
@@ -160,8 +160,8 @@ void split_parts(Layer_bounds& bounds, Triangles& triangles, Points& points, Pro
   if (!originals.empty()) place_copies_behind_originals(originals, bounds, triangles, points, properties...);
 }
 
-/// Removes triangles without area around the given rows, then gives parts of the surface that touch beside nodes
-/// without a value vertices of their own. `properties` are arrays with an entry per vertex.
+/// Removes triangles without area around the given rows, then separates parts of the surface that touch near nodes
+/// without a value. `properties` are arrays with one entry per vertex.
 template <class Grid, class Triangles, class Points, class... Properties>
 Repair_report repair_mesh(const Grid& grid, const Isosurface_plan& plan,
                           const std::vector<Inner_vertex<typename Grid::FT>>& inner_vertices, const Grid_rows& suspects,
@@ -172,8 +172,8 @@ Repair_report repair_mesh(const Grid& grid, const Isosurface_plan& plan,
   return report;
 }
 
-/// Removes the vertices at poles, one mark per vertex, with the triangles around them. Parts of the surface that then
-/// touch in a vertex get vertices of their own. `properties` are arrays with an entry per vertex.
+/// Removes the vertices at poles, given by one mark per vertex, with the triangles around them. Separates parts of
+/// the surface that then touch in a vertex. `properties` are arrays with one entry per vertex.
 template <class Kernel, class... Properties>
 void remove_poles(Isosurface_3<Kernel>& surface, const std::vector<std::uint8_t>& is_at_pole, Layer_bounds& bounds,
                   Properties&... properties) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The triangles of every topology that the zero set of a trilinear function has in a cell. They are made from the signs
-// at the corners, the decision on every face with a diagonal pair of positive corners, and the pair of boundary curves
-// that are joined by a tunnel, if there is one.
+// The triangles of every topology of the zero set of a trilinear function in a cell. They are computed from the signs
+// at the corners, the decision on every face with a diagonal pair of positive corners, and the pair of boundary
+// curves that a tunnel joins, if there is one.
 #ifndef EQUIAFFINE_MARCHING_CUBES_INTERNAL_MARCHING_CUBES_CASES_H
 #define EQUIAFFINE_MARCHING_CUBES_INTERNAL_MARCHING_CUBES_CASES_H
 
@@ -19,13 +19,14 @@
 namespace equiaffine::internal {
 
 // The curves in which a surface meets the faces of a cell, and the triangles between these curves. No edge inside a
-// cell joins two points of the same face: the next cell could have the same edge, which would then be in four
+// cell joins two points of the same face: the adjacent cell could have the same edge, which would then have four
 // triangles.
 
-// Corner c of a cell lies at (c & 1, c >> 1 & 1, c >> 2 & 1). Edge 4 axis + p + 2 q runs along `axis`; p and q are its
-// coordinates along the next two axes, cyclically. Face 2 axis + side lies where the coordinate along `axis` is `side`.
+// Corner c of a cell lies at (c & 1, c >> 1 & 1, c >> 2 & 1). Edge 4 axis + p + 2 q runs along `axis`; p and q are
+// its coordinates along the next two axes, cyclically. Face 2 axis + side lies where the coordinate along `axis` is
+// `side`.
 
-/// The corner at which an edge begins, and the one at which it ends.
+/// The corners at which an edge begins and ends.
 constexpr int first_corner(int edge) {
   const int axis = edge / 4;
   return (edge & 1) << (axis + 1) % 3 | (edge >> 1 & 1) << (axis + 2) % 3;
@@ -59,8 +60,7 @@ using Polygon = std::vector<std::uint8_t>;
 /// The boundary curves of the surface in a cell. Corner c is positive if bit c of `signs` is set, and the positive
 /// corners of a face are joined if its bit in `joined` is set. On each face a segment leads from the edge after a run
 /// of positive corners to the edge before it or, if the positive corners are joined, to the edge before the next run.
-/// The face on the other side of an edge traverses the edge the other way round, so the segments of all faces form
-/// closed curves.
+/// The two faces at an edge traverse it in opposite directions, so the segments of all faces form closed curves.
 inline std::vector<Polygon> boundary_curves(unsigned signs, unsigned joined) {
   const auto is_positive = [&](int corner) { return (signs >> corner & 1) != 0; };
   std::array<int, 12> next;
@@ -122,9 +122,9 @@ inline int squared_distance(int edge, int other) {
   return sum;
 }
 
-/// Appends the triangles of an annulus between two curves. In most cases edges between the curves are not enough, so a
-/// ring of three inner vertices first, first + 1, first + 2 lies between the curves. Each is joined to an arc of either
-/// curve, and the vertices of its two arcs are appended to `arcs`. The ring runs along a and against b, since the
+/// Appends the triangles of an annulus between two curves. Edges between the curves are usually not enough, so a ring
+/// of three inner vertices first, first + 1, first + 2 lies between them. Each is joined to an arc of either curve,
+/// and the vertices of its two arcs are appended to `arcs`. The ring runs along a and against b, because the
 /// boundaries of an annulus run in opposite directions.
 inline void triangulate_annulus(const Polygon& a, const Polygon& b, std::uint8_t first,
                                 std::vector<std::array<std::uint8_t, 3>>& triangles, std::vector<Polygon>& arcs) {
@@ -157,13 +157,13 @@ inline void triangulate_annulus(const Polygon& a, const Polygon& b, std::uint8_t
   }
 }
 
-/// Corners, edges and faces have the numbers of the curves above. Bit c of `signs` says that corner c is positive, bit
-/// f of `joined` that the positive corners of face f are connected across the face; it counts only where they face each
-/// other diagonally.
+/// All sub-cases of a cell. Corners, edges, and faces are numbered as above. Bit c of `signs` is set if corner c is
+/// positive. Bit f of `joined` is set if the positive corners of face f are connected across the face; it is only
+/// relevant if they are diagonal.
 ///
-/// The boundary curves cut the surface of the cell into regions, one more than there are curves. Inside the cell at
-/// most two regions of the same sign are joined (see isosurface_plan.h); then the two curves between them bound one
-/// annulus, else every curve bounds a disc of its own.
+/// The boundary curves cut the surface of the cell into regions, one more than there are curves. At most two regions
+/// of the same sign are joined inside the cell (see isosurface_plan.h). In this case the two curves between them
+/// bound one annulus; otherwise every curve bounds a disc.
 class Marching_cubes_cases {
 public:
   using Triangle = std::array<std::uint8_t, 3>;          ///< counterclockwise seen from the positive side
@@ -192,10 +192,10 @@ public:
   std::size_t size() const { return sub_cases_.size(); }
   const Sub_case& operator[](std::size_t sub_case) const { return sub_cases_[sub_case]; }
 
-  /// The faces whose positive corners face each other diagonally, bit f for face f.
+  /// The faces with diagonal positive corners, bit f for face f.
   unsigned ambiguous_faces(unsigned signs) const { return ambiguous_faces_[signs]; }
 
-  /// Whether the signs leave a choice. If not, the only sub-case is that of `variant(signs, 0)`.
+  /// Whether the signs allow several sub-cases. If not, the only sub-case is that of `variant(signs, 0)`.
   bool is_ambiguous(unsigned signs) const { return is_ambiguous_[signs]; }
 
   const Variant& variant(unsigned signs, unsigned joined) const { return variants_[signs][joined]; }
@@ -224,7 +224,7 @@ private:
     return faces;
   }
 
-  /// The region of every corner. A region has the smallest number of its corners.
+  /// The region of every corner. The index of a region is its smallest corner.
   static std::array<std::uint8_t, 8> find_regions(unsigned signs, unsigned joined) {
     std::array<std::uint8_t, 8> region{};
     for (std::uint8_t c = 0; c < 8; ++c) region[c] = c;
@@ -267,8 +267,8 @@ private:
     return variant;
   }
 
-  /// Whether a tunnel may join two regions. If so, along every axis there are corners of the two regions on edges that
-  /// face each other diagonally.
+  /// Whether a tunnel may join two regions. This requires that along every axis there are corners of the two regions
+  /// on diagonally opposite edges.
   static bool may_be_joined(const std::array<std::uint8_t, 8>& region, std::uint8_t r, std::uint8_t s) {
     for (int axis = 0; axis < 3; ++axis) {
       bool is_seen = false;
@@ -280,7 +280,7 @@ private:
     return true;
   }
 
-  /// Adds the sub-case with discs in all curves but i and j, which are joined by an annulus if they exist.
+  /// Adds the sub-case with a disc in each curve except i and j, which are joined by an annulus if they exist.
   void add_sub_case(const std::vector<Polygon>& curves, std::size_t i, std::size_t j) {
     Sub_case sub_case;
     sub_case.boundary_curves = int(curves.size());
@@ -306,9 +306,9 @@ private:
   std::array<std::vector<Variant>, 256> variants_;
 };
 
-/// The sub-cases of Marching_cubes_cases in flat arrays, for speed. The vertices of a cell are kept in slots: first
+/// The sub-cases of Marching_cubes_cases in flat arrays, for speed. The vertices of a cell are stored in slots: first
 /// those on the edges 0, 1, 2, 3, which run along i, then those on 4, 5, 8, 10 at the lower end of the cell along i,
-/// then those on 6, 7, 9, 11, which face them at its upper end, then the inner vertices.
+/// then those on the opposite edges 6, 7, 9, 11 at its upper end, then the inner vertices.
 struct Case_table {
   static constexpr std::size_t first_lower_slot = 4, first_upper_slot = 8, first_inner_slot = 12, number_of_slots = 16;
 
@@ -322,7 +322,7 @@ struct Case_table {
     bool is_ambiguous;
   };
 
-  /// Few cells have more triangles than this. The slots of so many triangles may be read from any entry on.
+  /// Few cells have more triangles than this. The slots of this many triangles can be read from any entry on.
   static constexpr std::size_t triangles_of_most_cells = 4;
 
   static const Case_table& instance() {
@@ -354,7 +354,7 @@ struct Case_table {
 
   std::vector<Entry> of_sub_case;
   std::array<Entry, 256> of_signs; ///< for all signs of the corners; if is_ambiguous is set, only that is valid
-  std::array<std::vector<std::uint8_t>, 2> slots; ///< three per triangle; slots[1] has them the other way round
+  std::array<std::vector<std::uint8_t>, 2> slots; ///< three per triangle; in reverse order in slots[1]
   std::array<Crossed_edges, 256> crossed;         ///< for all signs of the corners
 };
 

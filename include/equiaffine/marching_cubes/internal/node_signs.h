@@ -26,7 +26,7 @@ struct Sign_word {
 };
 
 #ifdef __SSE2__
-/// Which of four numbers are at least the level, 32 bits for each.
+/// Whether each of four numbers is at least the level, 32 bits each.
 inline __m128i are_positive(const float* x, float level) {
   return _mm_castps_si128(_mm_cmpge_ps(_mm_loadu_ps(x), _mm_set1_ps(level)));
 }
@@ -42,7 +42,7 @@ inline __m128 are_undefined(const double* x) {
   return _mm_castpd_ps(_mm_or_pd(four(x), four(x + 4)));
 }
 
-/// The signs of 16 numbers; adds to `undefined` whether one of them is NaN.
+/// The signs of 16 numbers; sets bits in `undefined` if one of them is NaN.
 template <class FT>
 std::uint64_t sixteen_signs(const FT* x, FT level, __m128& undefined) {
   undefined = _mm_or_ps(undefined, _mm_or_ps(are_undefined(x), are_undefined(x + 8)));
@@ -51,7 +51,7 @@ std::uint64_t sixteen_signs(const FT* x, FT level, __m128& undefined) {
   return std::uint64_t(unsigned(_mm_movemask_epi8(_mm_packs_epi16(low, high))));
 }
 
-/// Returns nothing if a number is NaN.
+/// The signs of n <= 64 numbers; nothing if one of them is NaN.
 template <class FT>
 std::optional<Sign_word> sign_word_without_undefined(const FT* values, std::size_t n, FT isovalue) {
   Sign_word word;
@@ -82,7 +82,7 @@ Sign_word sign_word(const FT* values, std::size_t n, const FT& isovalue) {
   return word;
 }
 
-/// The numbers from `first` up to, but without, `end`.
+/// The indices from `first` up to, but not including, `end`.
 struct Index_range {
   std::size_t first = 0, end = 0;
   std::size_t size() const { return end - first; }
@@ -91,8 +91,8 @@ struct Index_range {
 /// The nodes of a grid in a range along each axis.
 using Node_block = std::array<Index_range, 3>;
 
-/// The signs of the nodes of a grid, one bit each, in rows along i that begin with a new word; bits behind the end of a
-/// row are 0. Planes of constant k may be written by different threads.
+/// The signs of the nodes of a grid, one bit each, in rows along i that begin with a new word. Bits past the end of a
+/// row are 0. Different threads may write planes of different k.
 ///
 /// A node for which `set` was not called must not be a corner of a cell that meets the surface. Its sign is negative
 /// unless `set_positive` was called.
@@ -111,10 +111,10 @@ public:
   const Size& size() const { return size_; }
   std::size_t words() const { return words_; }
 
-  /// The words of a row. The word behind its end may be read, but is that of another row.
+  /// The words of a row. The word past its end may be read, but belongs to another row.
   const Word* row(std::size_t j, std::size_t k) const { return &positive_[(k * size_[1] + j) * words_]; }
 
-  /// Sets the signs of the nodes of a row from `first` on; the bits of all of them must lie in one word.
+  /// Sets the signs of the nodes of a row from `first` on. Their bits must all lie in one word.
   void set(std::size_t first, std::size_t j, std::size_t k, const Sign_word& signs) {
     const std::size_t row = k * size_[1] + j, w = first / 64;
     positive_[row * words_ + w] |= signs.positive << first % 64;
@@ -132,12 +132,12 @@ public:
     }
   }
 
-  /// Whether some node of some plane has no value.
+  /// Whether some node has no value.
   bool has_undefined() const {
     return std::any_of(undefined_.begin(), undefined_.end(), [](const auto& plane) { return !plane.empty(); });
   }
 
-  /// Calls visit(w) for the words w of a row with nodes from which edges or cells may begin that meet the surface.
+  /// Calls visit(w) for the words w of a row in which edges or cells may begin that meet the surface.
   template <class Visit>
   void for_each_word(std::size_t j, std::size_t k, const Visit& visit) const {
     for (std::size_t m = 0; m < masks_; ++m)
@@ -153,7 +153,7 @@ public:
   /// Word w of a row without its bits for nodes at which no cell begins.
   Word cells(Word word, std::size_t w) const { return w + 1 == words_ ? word & cells_of_last_word_ : word; }
 
-  /// Bit i of word w says that the cell (64 w + i, j, k) exists and its eight nodes have values.
+  /// Bit i of the result is set if the cell (64 w + i, j, k) exists and its eight nodes have values.
   Word defined_cells(std::size_t j, std::size_t k, std::size_t w) const {
     if (j + 1 >= size_[1] || k + 1 >= size_[2] || w >= words_) return 0;
     const auto undefined = [&](std::size_t v) {
@@ -176,8 +176,8 @@ public:
           along_j_(j + 1 < signs.size_[1] ? signs.row(j + 1, k) : here_),
           along_k_(k + 1 < signs.size_[2] ? signs.row(j, k + 1) : here_) {}
 
-    /// One word for each axis, whose bit i says that the edge at node 64 w + i has ends of different signs and belongs
-    /// to a cell all of whose nodes have values.
+    /// One word per axis. Bit i is set if the edge at node 64 w + i has ends of different signs and belongs to a cell
+    /// all of whose nodes have values.
     std::array<Word, 3> crossed(std::size_t w) const {
       const Word here = here_[w];
       std::array<Word, 3> crossed = {signs_.cells(here ^ (here >> 1 | here_[w + 1] << 63), w), here ^ along_j_[w],
@@ -200,7 +200,7 @@ private:
     undefined_[k][j * words_ + first / 64] |= bits << first % 64;
   }
 
-  /// Bit i of word w says that the edge along `axis` at the node (64 w + i, j, k) belongs to such a cell.
+  /// Bit i of the result is set if the edge along `axis` at the node (64 w + i, j, k) belongs to such a cell.
   Word edges_of_defined_cells(std::size_t axis, std::size_t j, std::size_t k, std::size_t w) const {
     Word word = 0;
     for (std::size_t b = 0; b < (axis == 1 ? 1U : 2U); ++b)
@@ -217,9 +217,9 @@ private:
   std::size_t words_; // per row
   std::size_t masks_; // words of evaluated_ per row
   Word cells_of_last_word_;
-  std::vector<Word> positive_;               // with one more word behind the end
-  std::vector<Word> evaluated_;              // a bit per word of positive_, which says that `set` was called for it
-  std::vector<std::vector<Word>> undefined_; // per plane; a plane is empty if all its nodes have values
+  std::vector<Word> positive_;               // with one extra word at the end
+  std::vector<Word> evaluated_;              // one bit per word of positive_, set if `set` was called for it
+  std::vector<std::vector<Word>> undefined_; // per plane; empty for a plane whose nodes all have values
 };
 
 } // namespace equiaffine::internal

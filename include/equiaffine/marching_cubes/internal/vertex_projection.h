@@ -31,8 +31,8 @@
 
 namespace equiaffine::internal {
 
-/// Finds a zero of the function near a vertex inside a cell. It is looked for along each axis, between the vertex and
-/// a wall a little within the cell, so that the vertex stays inside.
+/// Finds a zero of the function near a vertex inside a cell. Searches along each axis between the vertex and a wall
+/// slightly inside the cell, so that the vertex stays in the cell.
 template <class Traits>
 Surface_point_3<Kernel_of<Traits>> project_within_cell(const Lattice_function<Traits>& function,
                                                        const Inner_vertex<typename Traits::FT>& vertex) {
@@ -63,8 +63,8 @@ Surface_point_3<Kernel_of<Traits>> project_within_cell(const Lattice_function<Tr
   return best;
 }
 
-/// Finds a zero of a spline on an edge at whose ends the samples have different signs. The spline need not have these
-/// signs: without a change of its own sign, a zero is looked for nearby.
+/// Finds a zero of a spline on an edge at whose ends the samples have different signs. If the spline does not have
+/// different signs there, the zero is searched for nearby.
 template <class Traits>
 Surface_point_3<Kernel_of<Traits>> intersect_edge_of_samples(const Traits& traits,
                                                              const typename Lattice_function<Traits>::Edge& edge) {
@@ -94,10 +94,10 @@ intersect_edges(const Batch_function_traits_3<Traits>& traits,
   }
 }
 
-// The blocks of nodes whose vertices a thread projects, one after the other.
+// The blocks of nodes whose vertices a thread projects, one at a time.
 
-/// The number of planes whose vertices are projected together. Where tiles are few, those of more planes are, for
-/// threads to have something to do.
+/// The number of planes whose vertices are projected together; larger if there are few tiles, to keep the threads
+/// busy.
 template <class Traits>
 std::size_t planes_of_slab(const Node_signs::Size& size) {
   constexpr std::size_t planes = cells_of_tile[2], enough_tiles = 64;
@@ -106,7 +106,7 @@ std::size_t planes_of_slab(const Node_signs::Size& size) {
   return planes * std::max<std::size_t>(1, enough_tiles / tiles);
 }
 
-/// The blocks of nodes of some planes: tiles for a function that can be restricted to cells, else planes.
+/// The blocks of nodes of some planes: tiles for a function that can be restricted to cells, otherwise planes.
 template <class Traits>
 std::vector<Node_block> blocks_of_slab(const Isosurface_plan& plan, const Index_range& planes) {
   std::vector<Node_block> blocks;
@@ -129,7 +129,7 @@ template <class FT, class Visit>
 void for_each_inner_vertex(const Isosurface_plan& plan, const std::vector<Inner_vertex<FT>>& inner_vertices,
                            const Node_block& block, const Visit& visit) {
   for (std::size_t k = block[2].first; k < block[2].end; ++k) {
-    const Index_range numbers = plan.numbering.inner_vertices_of_layer(k); // ordered like their cells
+    const Index_range numbers = plan.numbering.inner_vertices_of_layer(k); // in the order of their cells
     const auto of_layer =
         std::span(inner_vertices).subspan(plan.numbering.place_of_inner(numbers.first, k), numbers.size());
     auto vertex = std::partition_point(of_layer.begin(), of_layer.end(),
@@ -140,8 +140,8 @@ void for_each_inner_vertex(const Isosurface_plan& plan, const std::vector<Inner_
   }
 }
 
-/// The cells around the vertices at the nodes of a block, if it has vertices. Rounding may move a vertex to another
-/// cell at its edge, or beyond an end of the edge.
+/// The cells around the vertices at the nodes of a block; nothing if it has no vertices. Includes neighbors, because
+/// rounding may move a vertex to another cell at its edge or beyond an end of the edge.
 template <class FT>
 std::optional<Cell_block> cells_with_vertices(const Isosurface_plan& plan,
                                               const std::vector<Inner_vertex<FT>>& inner_vertices,
@@ -165,19 +165,18 @@ std::optional<Cell_block> cells_with_vertices(const Isosurface_plan& plan,
 
 struct Projection_report {
   std::size_t evaluations;        ///< the number of evaluations of the function
-  std::size_t flips_undone;       ///< vertices that were put back
-  Grid_rows suspects;             ///< rows of nodes with a vertex, around which triangles may have no area
-  std::vector<std::size_t> poles; ///< vertices on edges along which the function has a pole, or an end, and no zero
+  std::size_t flips_undone;       ///< the number of vertices that were moved back
+  Grid_rows suspects;             ///< rows with a vertex at a node, around which triangles may have no area
+  std::vector<std::size_t> poles; ///< vertices on edges on which the function has a pole or an end but no zero
 };
 
-/// Moves the vertices of a mesh from their linear positions, where the linear interpolant along an edge of the lattice
-/// vanishes, onto the surface of the function. If that takes away the area of a triangle or turns the triangle over,
-/// its vertices are moved back.
+/// Moves the vertices of a mesh from their linear positions, the zeros of the linear interpolants along the edges of
+/// the lattice, onto the surface of the function. If this flips a triangle or removes its area, its vertices are
+/// moved back.
 ///
-/// Slabs of planes are projected one after the other, so that only the linear positions of one slab are kept in memory.
-/// A function that can be restricted to cells is evaluated in one tile of its lattice after the other.
-/// Vertices that are moved back may turn other triangles over. These are few, and the linear positions of their
-/// vertices are computed again.
+/// Slabs of planes are projected one at a time, so that only the linear positions of one slab are kept in memory. A
+/// function that can be restricted to cells is evaluated in one tile of its lattice at a time. Moving vertices back
+/// may flip other triangles. There are few of these, and the linear positions of their vertices are recomputed.
 template <class ConcurrencyTag, class Traits>
 class Vertex_projection {
   using FT = typename Traits::FT;
@@ -207,14 +206,14 @@ public:
   }
 
 private:
-  /// The positions of vertices with successive numbers.
+  /// The positions of vertices with consecutive indices.
   struct Positions {
     std::size_t first = 0;
     std::vector<Point_3> points;
     const Point_3& operator[](std::size_t v) const { return points[v - first]; }
   };
 
-  /// A thread finds this out about the vertices at the nodes of a block.
+  /// The results of a thread for the vertices at the nodes of a block.
   struct Part {
     std::size_t evaluations = 0;
     std::vector<std::size_t> poles;
@@ -222,8 +221,8 @@ private:
   };
 
   /// The linear positions of the vertices on edges that begin in the planes `first` to `end` - 1 and in the cells
-  /// above, which are not yet projected, and in the plane below, which is projected already: its linear positions are
-  /// in `below`.
+  /// above, which are not yet projected, and in the plane below. That plane is already projected; its linear
+  /// positions are in `below`.
   Positions linear_positions(std::size_t first, std::size_t end, const Positions& below) const {
     const Index_range vertices = numbering_.vertices_of_planes(first, end);
     const std::size_t first_kept = numbering_.vertices_of_planes(first > 0 ? first - 1 : 0, end).first;
@@ -237,8 +236,7 @@ private:
     return linear;
   }
 
-  /// Projects the vertices on the edges that begin in the planes `first` to `end` - 1, and those in the cells above
-  /// them.
+  /// Projects the vertices on the edges that begin in the planes `first` to `end` - 1, and those in the cells above.
   void project_slab(std::size_t first, std::size_t end) {
     const std::vector<Node_block> blocks = blocks_of_slab<Traits>(plan_, {first, end});
     std::vector<Part> parts(blocks.size());
@@ -281,15 +279,15 @@ private:
     part.evaluations += projected.evaluations;
   }
 
-  /// Finds the triangles of layer k that projection has turned over.
+  /// Finds the triangles of layer k that projection has flipped.
   void find_flipped(std::size_t k, const Positions& linear) {
     const Index_range triangles = numbering_.triangles_of_layer(k);
     for (std::size_t t = triangles.first; t < triangles.end; ++t)
       if (is_flipped(t, [&](std::size_t v) { return linear[v]; })) flipped_[k].push_back(t);
   }
 
-  /// Whether projection has turned a triangle over or taken away its area. This is decided in lattice coordinates, so
-  /// that the image of a surface under an affine map has the images of its vertices.
+  /// Whether projection has flipped a triangle or removed its area. Decided in lattice coordinates, so that the
+  /// result is invariant under affine maps.
   template <class LinearPosition>
   bool is_flipped(std::size_t t, const LinearPosition& linear_position) const {
     const auto& steps = function_.lattice().steps();
@@ -307,8 +305,7 @@ private:
     return (cosine < FT(0) && has_side(linear)) || (have_no_area(points) && !have_no_area(linear));
   }
 
-  /// Whether the area of a triangle is greater than the rounding of its coordinates could make it, so that the
-  /// direction of its normal means something.
+  /// Whether the area of a triangle exceeds the effect of rounding its coordinates, so that its normal is meaningful.
   static bool has_side(const std::array<Point_3, 3>& p) {
     const Vector_3 u = p[1] - p[0], v = p[2] - p[0];
     const FT length = std::max(u.squared_length(), v.squared_length());
@@ -324,7 +321,7 @@ private:
     return has_zero_area(Function::coordinates(p[0]), Function::coordinates(p[1]), Function::coordinates(p[2]));
   }
 
-  /// Puts back the vertices of flipped triangles, and of those that are flipped once other vertices are back.
+  /// Moves back the vertices of flipped triangles, and of those that are flipped by moving other vertices back.
   void undo_flips() {
     std::vector<std::size_t> suspects;
     for (const auto& of_layer : flipped_) suspects.insert(suspects.end(), of_layer.begin(), of_layer.end());
@@ -333,8 +330,9 @@ private:
       if (!is_flipped_now(t)) continue;
       const Triangle triangle = surface_.triangles[t];
       if (!has_side({linear_position(triangle[0]), linear_position(triangle[1]), linear_position(triangle[2])})) {
-        // Beside a node whose value is almost zero, two vertices are equal up to rounding, and projection may have made
-        // them exactly equal. Once these two are put back, the third one may stay where it is.
+        // Near a node with a value of almost zero, two vertices are equal up to rounding, and projection may have
+        // made
+        // them exactly equal. Once these two are moved back, the third one may stay.
         undo_roundings(triangle);
         if (!is_flipped_now(t)) continue;
       }
@@ -347,14 +345,14 @@ private:
     return is_flipped(t, [&](std::size_t v) { return linear_position(v); });
   }
 
-  /// Computes the linear position of a vertex again.
+  /// Recomputes the linear position of a vertex.
   Point_3 linear_position(std::size_t v) {
     if (const auto inner = numbering_.place_of_inner(v)) return point_of(inner_vertices_[*inner]);
     evaluations_ += Function::evaluations(2);
     return function_.edge(*numbering_.edge_of(v)).linear_intersection();
   }
 
-  /// Puts back the vertices that projection has moved by no more than rounding.
+  /// Moves back the vertices that projection has moved by no more than rounding.
   void undo_roundings(const Triangle& triangle) {
     for (const std::size_t v : triangle) {
       const Point_3 position = linear_position(v);
@@ -362,7 +360,7 @@ private:
     }
   }
 
-  /// Puts a vertex back to its linear position. Returns whether it was elsewhere.
+  /// Moves a vertex back to its linear position. Returns false if it was already there.
   bool put_back(std::size_t v) {
     const Point_3 position = linear_position(v);
     if (surface_.points[v] == position) return false;
@@ -372,7 +370,7 @@ private:
     return true;
   }
 
-  /// Appends the numbers of the triangles that have v as a vertex.
+  /// Appends the triangles that have v as a vertex.
   void append_triangles_around(std::size_t v, std::vector<std::size_t>& triangles) const {
     const auto edge = numbering_.edge_of(v);
     const auto node = edge ? edge->node : inner_vertices_[*numbering_.place_of_inner(v)].cell;
@@ -396,7 +394,7 @@ private:
   std::size_t flips_undone_ = 0;
 };
 
-/// Projects the vertices of `surface`, which are at their linear positions: changes its points and their status.
+/// Projects the vertices of `surface` from their linear positions; changes its points and their status.
 template <class ConcurrencyTag, class Traits>
 Projection_report project_vertices(const Lattice_function<Traits>& function, const Isosurface_plan& plan,
                                    const std::vector<Inner_vertex<typename Traits::FT>>& inner_vertices,

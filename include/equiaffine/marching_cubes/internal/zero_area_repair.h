@@ -19,11 +19,11 @@
 
 namespace equiaffine::internal {
 
-// Vertices and triangles are removed from a mesh, and copies of vertices are added, so that all others keep their
-// order: what a plane of nodes and a layer of cells have stays together.
+// Vertices and triangles are removed from a mesh, and copies of vertices are added, such that the order is kept: the
+// vertices of a plane of nodes and the triangles of a layer of cells stay contiguous.
 
-/// The places in the arrays of a mesh where the vertices of each plane of nodes, with those of the cells above, and the
-/// triangles of each layer of cells begin. One more place is the end.
+/// The indices at which the vertices of each plane of nodes, with those of the cells above, and the triangles of each
+/// layer of cells begin. One more index marks the end.
 struct Layer_bounds {
   std::vector<std::size_t> vertices, triangles;
 
@@ -36,11 +36,11 @@ struct Layer_bounds {
   }
 };
 
-/// Counts how many of some numbers are smaller than another one, in constant time.
+/// Counts the numbers of a set that are smaller than a given number, in constant time.
 template <class Index>
 class Counts_below {
 public:
-  /// `numbers` are ascending, without repetition, and below n.
+  /// `numbers` are ascending, distinct, and below n.
   Counts_below(const std::vector<Index>& numbers, std::size_t n) : words_(n / 64 + 1), before_(n / 64 + 1) {
     for (const Index number : numbers) words_[number / 64] |= std::uint64_t(1) << number % 64;
     for (std::size_t w = 1; w < words_.size(); ++w) before_[w] = before_[w - 1] + Index(std::popcount(words_[w - 1]));
@@ -49,17 +49,17 @@ public:
   /// \pre number <= n
   Index operator()(std::size_t number) const {
     const std::uint64_t smaller = words_[number / 64] & ((std::uint64_t(1) << number % 64) - 1);
-    if (smaller == 0) return before_[number / 64]; // mostly; code for any processor counts bits by a call
+    if (smaller == 0) return before_[number / 64]; // usual; in portable code popcount is a function call
     return before_[number / 64] + Index(std::popcount(smaller));
   }
 
 private:
-  std::vector<std::uint64_t> words_; // a bit per number
+  std::vector<std::uint64_t> words_; // one bit per number
   std::vector<Index> before_;        // the count before each word
 };
 
-/// Removes entries from an array, and calls `move(first, end, to)` to move those between to a place at or before
-/// theirs, which returns the end of it. `removed` is ascending, without repetition.
+/// Removes entries from an array. Calls `move(first, end, to)` to move the entries between to an earlier or the same
+/// position; it returns the end of the moved entries. `removed` is ascending and distinct.
 template <class Index, class Array, class Move>
 void remove_from_array(const std::vector<Index>& removed, Array& array, const Move& move) {
   auto first = array.begin(), to = first;
@@ -77,9 +77,9 @@ void remove_from_array(const std::vector<Index>& removed, Array& array) {
                     [](auto first, auto end, auto to) { return first == to ? end : std::move(first, end, to); });
 }
 
-/// Writes triangles to a place at or before theirs, with the numbers that their vertices have when others are removed.
-/// Returns the end of that place. Mostly no removed vertex is among those of a block of triangles, whose numbers then
-/// all change by the same.
+/// Writes triangles to an earlier or the same position, with the vertex indices after the removal. Returns the end of
+/// the written triangles. Usually no removed vertex lies between those of a block of triangles, and all indices
+/// change by the same amount.
 template <class Iterator, class Index>
 Iterator write_renumbered(Iterator first, Iterator end, const Counts_below<Index>& removed_before, Iterator to) {
   constexpr std::ptrdiff_t most = 256; // triangles in a block
@@ -111,8 +111,8 @@ void remove_from_bounds(const std::vector<Index>& removed, std::vector<std::size
     bound -= std::size_t(std::lower_bound(removed.begin(), removed.end(), bound) - removed.begin());
 }
 
-/// Removes vertices that no other triangles have, and triangles. `properties` are arrays with an entry per vertex. The
-/// numbers that are removed are ascending, without repetition.
+/// Removes triangles, and vertices that no remaining triangle has. `properties` are arrays with one entry per vertex.
+/// The removed indices are ascending and distinct.
 template <class Triangles, class Points, class... Properties>
 void remove_from_mesh(const std::vector<std::uint32_t>& removed_vertices,
                       const std::vector<std::size_t>& removed_triangles, Layer_bounds& bounds, Triangles& triangles,
@@ -127,8 +127,8 @@ void remove_from_mesh(const std::vector<std::uint32_t>& removed_vertices,
   remove_from_bounds(removed_vertices, bounds.vertices);
 }
 
-/// Moves the last entries of an array, copies of earlier ones, behind these. `originals` says of which, and is
-/// ascending.
+/// Moves the last entries of an array, which are copies of earlier ones, directly after their originals. `originals`
+/// is ascending.
 template <class Array>
 void place_copies(const std::vector<std::uint32_t>& originals, const std::vector<std::size_t>& order, Array& array) {
   const std::size_t old_size = array.size() - originals.size();
@@ -140,7 +140,7 @@ void place_copies(const std::vector<std::uint32_t>& originals, const std::vector
   }
 }
 
-/// Moves copies of vertices, which are the last ones, behind their originals: `originals` says of which each is a copy.
+/// Moves copies of vertices from the end to directly after their originals; `originals` has one index per copy.
 template <class Triangles, class Points, class... Properties>
 void place_copies_behind_originals(const std::vector<std::uint32_t>& originals, Layer_bounds& bounds,
                                    Triangles& triangles, Points& points, Properties&... properties) {
@@ -164,7 +164,7 @@ void place_copies_behind_originals(const std::vector<std::uint32_t>& originals, 
   (place_copies(sorted, order, properties), ...);
 }
 
-/// Whether three points span no triangle, in the precision of double.
+/// Whether three points span a triangle of area zero in double precision.
 template <class Coordinates>
 bool has_zero_area(const Coordinates& a, const Coordinates& b, const Coordinates& c) {
   std::array<double, 3> u, v;
@@ -175,7 +175,7 @@ bool has_zero_area(const Coordinates& a, const Coordinates& b, const Coordinates
   for (std::size_t m = 0; m < 3; ++m) {
     const std::size_t n = (m + 1) % 3;
     const double product = u[m] * v[n],
-                 other = u[n] * v[m]; // no compiler contracts a comparison, as it may a difference
+                 other = u[n] * v[m]; // compared, because compilers may contract a difference
     if (product != other || std::isinf(product)) return false;
   }
   return true;
@@ -188,21 +188,20 @@ bool any_zero_area(const Triangles& triangles, const Coordinates& coordinates) {
   });
 }
 
-/// Removes triangles of zero area from a mesh made by Marching Cubes, where the surface passes through nodes: edges
-/// without length are contracted while that leaves the topology as it is (link condition: Dey, Edelsbrunner, Guha,
-/// Nekhayev 1999), components without area are dropped, and what is left is given area by moving vertices a little.
+/// Removes triangles of zero area from a mesh made by Marching Cubes, where the surface passes through nodes. It
+/// contracts edges of zero length while that preserves the topology (link condition: Dey, Edelsbrunner, Guha,
+/// Nekhayev 1999), drops components without area, and gives the remaining triangles area by moving vertices slightly.
 ///
-/// `coordinates(v)` are those of a vertex, `nudge(v, round)` moves it a little, and `is_at_cut(v)` says that the mesh
-/// goes on there beyond what is known of it. `run` gives the triangles to remove three equal indices, and `remove`
-/// takes them out.
+/// `coordinates(v)` returns those of a vertex, `nudge(v, round)` moves it slightly, and `is_at_cut(v)` returns
+/// whether the mesh continues there beyond its known part. `run` marks the triangles to remove by three equal
+/// indices, and `remove` removes them.
 template <class Coordinates, class Nudge, class Is_at_cut>
 class Zero_area_repair {
 public:
   using Index = std::uint32_t;
   using Triangle = std::array<Index, 3>;
 
-  /// `suspects` are the numbers of all triangles that may have no area, and of all triangles that have a vertex in
-  /// common with one that has none.
+  /// `suspects` are all triangles that may have no area, and all triangles that share a vertex with such a triangle.
   Zero_area_repair(std::span<Triangle> triangles, const std::vector<std::size_t>& suspects,
                    const Coordinates& coordinates, const Nudge& nudge, const Is_at_cut& is_at_cut)
       : triangles_(triangles), coordinates_(coordinates), nudge_(nudge), is_at_cut_(is_at_cut) {
@@ -211,7 +210,7 @@ public:
     if (!flat_.empty()) find_stars(suspects);
   }
 
-  /// Repairs the triangles and says what it did.
+  /// Repairs the triangles and returns the number of repairs.
   Isosurface_repairs run() {
     if (flat_.empty()) return {};
     while (contract_edges()) continue;
@@ -220,11 +219,11 @@ public:
     return repairs_;
   }
 
-  /// Whether a closed part without area may go on beyond a cut, so that it is not known whether it is to be dropped.
+  /// Whether a closed part without area may continue beyond a cut, so that dropping it cannot be decided.
   bool is_undecided() const { return is_undecided_; }
 
-  /// Removes the triangles that are gone, and the vertices that are in no triangle any more from `points...`, arrays
-  /// with an entry per vertex.
+  /// Removes the marked triangles, and the vertices that are no longer in any triangle from `points...`, arrays with
+  /// one entry per vertex.
   template <class Triangles, class... Points>
   void remove(Layer_bounds& bounds, Triangles& triangles, Points&... points) {
     sort_and_unite(removed_vertices_);
@@ -258,7 +257,7 @@ private:
         if (has_star[v]) stars_[v].push_back(t);
   }
 
-  /// Contracts edges without length where that is possible. Returns false if there was none.
+  /// Contracts edges of zero length where possible. Returns false if there was none.
   bool contract_edges() {
     const std::size_t before = repairs_.contracted_edges;
     for (const std::size_t t : flat_)
@@ -269,7 +268,7 @@ private:
     return repairs_.contracted_edges != before;
   }
 
-  /// The vertices around v, each with the number of triangles at the edge to it: 1 on the boundary, else 2.
+  /// The vertices around v, each with the number of triangles at the edge to it: 1 on the boundary, otherwise 2.
   std::unordered_map<Index, int> neighbors(Index v) const {
     std::unordered_map<Index, int> result;
     for (const std::size_t t : stars_.at(v))
@@ -282,7 +281,7 @@ private:
     return std::any_of(around.begin(), around.end(), [](const auto& n) { return n.second == 1; });
   }
 
-  /// Whether contraction of the edge uv leaves the topology as it is and no two triangles the same.
+  /// Whether contraction of the edge uv preserves the topology and creates no duplicate triangle.
   bool may_contract(Index u, Index v) const {
     const auto around_u = neighbors(u), around_v = neighbors(v);
     const int triangles = around_u.at(v);
@@ -297,8 +296,8 @@ private:
     return common == triangles && !is_edge_facing_both(u, v);
   }
 
-  /// Whether triangles at u and at v, not the same ones, have the edge opposite to these vertices in common. They would
-  /// become the same triangle.
+  /// Whether some triangle at u and another one at v share the edge opposite to these vertices. They would become the
+  /// same triangle.
   bool is_edge_facing_both(Index u, Index v) const {
     for (const std::size_t s : stars_.at(u)) {
       if (contains(triangles_[s], v)) continue;
@@ -362,9 +361,9 @@ private:
     removed_triangles_.insert(removed_triangles_.end(), component.begin(), component.end());
   }
 
-  /// Gives the remaining flat triangles area.
+  /// Moves vertices slightly to give the remaining flat triangles area.
   void move_vertices() {
-    constexpr int rounds = 4; // a vertex moves by 2.5e-7 at most in each
+    constexpr int rounds = 4; // a vertex moves by at most 2.5e-7 in each
     std::unordered_set<Index> moved;
     for (int round = 0; round < rounds; ++round) {
       std::vector<Index> vertices;
@@ -373,7 +372,7 @@ private:
       sort_and_unite(vertices);
       for (const Index v : vertices) nudge_(v, round);
       moved.insert(vertices.begin(), vertices.end());
-      flat_.clear(); // the move of a vertex may have flattened triangles around it
+      flat_.clear(); // moving a vertex may have flattened triangles around it
       for (const Index v : vertices) flat_.insert(flat_.end(), stars_[v].begin(), stars_[v].end());
     }
     repairs_.moved_vertices = moved.size();
@@ -387,18 +386,18 @@ private:
   const Nudge& nudge_;
   const Is_at_cut& is_at_cut_;
   std::vector<std::size_t> flat_;                             // triangles that may have no area
-  std::unordered_map<Index, std::vector<std::size_t>> stars_; // the triangles around the vertices of those
+  std::unordered_map<Index, std::vector<std::size_t>> stars_; // the triangles around their vertices
   std::vector<Index> removed_vertices_;
   std::vector<std::size_t> removed_triangles_;
   Isosurface_repairs repairs_;
   bool is_undecided_ = false;
 };
 
-/// A position near p, which is move(0): move(d) for a small d that depends on the place of the vertex and the round. d
-/// is at most 2.5e-7 where move(0.5e-7) differs from p, else a few roundings.
+/// A position near p = move(0): move(d) for a small d that depends on the place of the vertex and the round. d is at
+/// most 2.5e-7 if move(0.5e-7) differs from p, otherwise a few roundings.
 template <class Point, class Move>
 Point nudged(const Point& p, std::size_t place, int round, const Move& move) {
-  // The square makes vertices that move alike in one round move differently in the next.
+  // The square makes vertices that move alike in one round move differently in the next one.
   const double golden = 0.6180339887498949 * double(place) * (round + 1) * (round + 1);
   double d = 0.5e-7;
   while (move(d) == p && d < 1) d *= 2;

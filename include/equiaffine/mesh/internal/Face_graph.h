@@ -6,21 +6,21 @@
 
 namespace equiaffine {
 
-/// A graph as CGAL's concept VertexListGraph describes it, whose vertices may have points.
+/// A model of CGAL's concept VertexListGraph. Its vertices may have points.
 template <class T>
 concept Vertex_graph = requires(const T& t) {
   vertices(t);
 };
 
-/// A mesh as CGAL's concept FaceListGraph describes it, such as CGAL::Surface_mesh.
+/// A model of CGAL's concept FaceListGraph, such as CGAL::Surface_mesh.
 template <class T>
 concept Face_graph = requires(const T& t) {
   vertices(t);
   faces(t);
 };
 
-/// The vertices of a graph as a range. The concepts have a pair of iterators, and CGAL's own meshes ranges that are
-/// pairs.
+/// The vertices of a graph as a range. The concept requires a pair of iterators; CGAL's own meshes return ranges that
+/// are pairs.
 template <Vertex_graph Graph>
 auto vertices_of(const Graph& graph) {
   return CGAL::make_range(vertices(graph));

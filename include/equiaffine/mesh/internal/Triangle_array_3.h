@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A triangle mesh with the neighbors of its points, and which of its triangles cross each other.
+// A triangle mesh with the neighbors of its points, and the test for triangles that intersect each other.
 #ifndef EQUIAFFINE_MESH_INTERNAL_TRIANGLE_ARRAY_3_H
 #define EQUIAFFINE_MESH_INTERNAL_TRIANGLE_ARRAY_3_H
 
@@ -26,13 +26,13 @@ namespace equiaffine::internal {
 using Index_triangle = std::array<std::uint32_t, 3>;
 using Triangle_pair = std::pair<std::uint32_t, std::uint32_t>; ///< the smaller index is first
 
-/// Says whether two triangles have more in common than the corners and edges that they share. Predicates are exact.
+/// Tests whether two triangles intersect in more than their shared corners and edges. Predicates are exact.
 class Crossing_test_3 {
 public:
   Crossing_test_3(std::span<const Eigen::Vector3d> points, std::span<const Index_triangle> triangles)
       : points_(points), triangles_(triangles) {}
 
-  /// Triangles without area cross nothing.
+  /// Whether triangles s and t intersect. Degenerate triangles intersect nothing.
   bool operator()(std::uint32_t s, std::uint32_t t) const {
     const auto [first, shared] = shared_first(triangles_[s], triangles_[t]);
     const Index_triangle second = shared_first(triangles_[t], triangles_[s]).first;
@@ -48,7 +48,7 @@ private:
   Kernel::Point_3 point(std::uint32_t v) const { return {points_[v][0], points_[v][1], points_[v][2]}; }
   Kernel::Triangle_3 triangle(const Index_triangle& t) const { return {point(t[0]), point(t[1]), point(t[2])}; }
 
-  /// The corners of a triangle, those that another one has, too, before the others, and the number of the former.
+  /// The corners of a triangle, starting with those shared with another triangle, and the number of shared corners.
   static std::pair<Index_triangle, int> shared_first(Index_triangle t, const Index_triangle& other) {
     const auto is_shared = [&](std::uint32_t v) { return std::find(other.begin(), other.end(), v) != other.end(); };
     const auto end = std::stable_partition(t.begin(), t.end(), is_shared);
@@ -62,7 +62,7 @@ private:
     return !segment.is_degenerate() && CGAL::do_intersect(triangle(t), segment);
   }
 
-  /// Whether two triangles with a common edge lie on each other.
+  /// Whether two triangles with a common edge overlap.
   bool is_fold(const Index_triangle& t, std::uint32_t apex) const {
     const auto a = point(t[0]), b = point(t[1]), c = point(t[2]), d = point(apex);
     return CGAL::coplanar(a, b, c, d) && CGAL::coplanar_orientation(a, b, c, d) == CGAL::POSITIVE;
@@ -84,8 +84,8 @@ inline Triangle_box_3 box_of(std::uint32_t t, std::span<const Eigen::Vector3d> p
   return {box, t};
 }
 
-/// Returns all pairs of triangles that cross each other, in order. Takes about n log n time beside the pairs of boxes
-/// that meet.
+/// Returns all pairs of triangles that intersect, in order. Takes about n log n time plus the time for pairs of
+/// intersecting boxes.
 inline std::vector<Triangle_pair> crossing_triangles(std::span<const Eigen::Vector3d> points,
                                                      std::span<const Index_triangle> triangles) {
   std::vector<Triangle_box_3> boxes;
@@ -99,7 +99,7 @@ inline std::vector<Triangle_pair> crossing_triangles(std::span<const Eigen::Vect
   return found;
 }
 
-/// Does the same for the pairs of which one triangle is marked.
+/// The same for pairs with at least one marked triangle.
 inline std::vector<Triangle_pair> crossing_triangles(std::span<const Eigen::Vector3d> points,
                                                      std::span<const Index_triangle> triangles,
                                                      const std::vector<char>& is_marked) {
@@ -121,7 +121,7 @@ inline std::vector<Triangle_pair> crossing_triangles(std::span<const Eigen::Vect
   return found;
 }
 
-/// Triangles between points with the neighbors of every point along edges.
+/// A triangle mesh with the edge-adjacent neighbors of every point.
 class Triangle_array_3 {
 public:
   using Vector = Eigen::Vector3d;
@@ -146,7 +146,7 @@ public:
     return std::span(neighbors_).subspan(begin_[v], begin_[v + 1] - begin_[v]);
   }
 
-  /// Twice the area times the unit normal of a triangle whose corners are among other points.
+  /// The normal of a triangle with the given points; its length is twice the area.
   static Vector normal(const Index_triangle& t, const std::vector<Vector>& points) {
     return (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
   }
@@ -157,7 +157,7 @@ public:
     return (points_[a] + points_[b] + points_[c]) / 3;
   }
 
-  /// The sum of the normals of the triangles around every point.
+  /// For each point the sum of the normals of its triangles.
   std::vector<Vector> vertex_normals() const {
     std::vector<Vector> sums(points_.size(), Vector::Zero());
     for (const auto& t : triangles_)
@@ -165,7 +165,7 @@ public:
     return sums;
   }
 
-  /// The mean length of the edges at a point; 0 without any.
+  /// The mean length of the edges at a point; 0 if there are none.
   double mean_edge(std::size_t v) const {
     double sum = 0;
     for (const auto u : neighbors(v)) sum += (points_[u] - points_[v]).norm();
@@ -179,14 +179,14 @@ private:
   std::vector<std::uint32_t> neighbors_;
 };
 
-/// The points and triangles of a mesh, vertices in their order.
-/// \throw std::invalid_argument if a face is not a triangle, or a coordinate is not finite.
+/// The points and triangles of a mesh, with vertices in their order.
+/// \throw std::invalid_argument if a face is not a triangle, or a coordinate is not finite
 template <class Mesh, class Parameters>
 Triangle_array_3 triangle_array_of(const Mesh& mesh, const Parameters& parameters) {
   Indexed_polygons faces = indexed_polygons_of_graph(mesh, parameters);
   std::vector<Index_triangle> triangles;
   for (const auto& face : faces.polygons) {
-    check_argument(face.size() == 3, "a face of the mesh is not a triangle: cut faces into triangles before");
+    check_argument(face.size() == 3, "a face of the mesh is not a triangle: triangulate the faces first");
     triangles.push_back({face[0], face[1], face[2]});
   }
   return Triangle_array_3(std::move(faces.points), std::move(triangles));

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-// CGAL 6 has new names for these.
+// CGAL 6 has renamed these headers and classes.
 #if __has_include(<CGAL/AABB_traits_3.h>)
 #include <CGAL/AABB_traits_3.h>
 #include <CGAL/AABB_triangle_primitive_3.h>
@@ -22,13 +22,13 @@
 
 namespace equiaffine {
 
-/// Finds the triangle that is nearest to a point. Several threads may ask.
+/// Finds the triangle nearest to a point. Queries are thread-safe.
 class Triangle_tree_3 {
 public:
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Point_3 = Kernel::Point_3;
 
-  /// From triples of positions of points. Triangles without area do not count.
+  /// Builds the tree from triples of indices of points. Degenerate triangles are ignored.
   template <class Points, class Triangles, class To_point>
   Triangle_tree_3(const Points& points, const Triangles& triangles, const To_point& to_point) {
     for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -43,10 +43,10 @@ public:
   Triangle_tree_3(const Triangle_tree_3&) = delete;
   Triangle_tree_3& operator=(const Triangle_tree_3&) = delete;
 
-  /// The distance of a point from the triangles; infinity if there are none.
+  /// The distance from a point to the triangles; infinity if there are none.
   double distance(const Point_3& p) const { return is_empty() ? infinity : std::sqrt(tree_.squared_distance(p)); }
 
-  /// That distance, and the position of the nearest triangle among those given.
+  /// The same distance, and the index of the nearest triangle.
   std::pair<double, std::size_t> nearest(const Point_3& p) const {
     if (is_empty()) return {infinity, 0};
     const auto [foot, triangle] = tree_.closest_point_and_primitive(p);

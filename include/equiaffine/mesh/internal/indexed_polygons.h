@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshes, polygon soups and points of CGAL become arrays of numbers.
+// Converts meshes, polygon soups and points of CGAL to arrays of numbers.
 #ifndef EQUIAFFINE_MESH_INTERNAL_INDEXED_POLYGONS_H
 #define EQUIAFFINE_MESH_INTERNAL_INDEXED_POLYGONS_H
 
@@ -31,19 +31,19 @@
 
 namespace equiaffine {
 
-/// Does not compile for points whose coordinates are no floating-point numbers, else returns true, so that a static
-/// assertion can call it before anything else fails.
+/// Fails to compile for points whose coordinates are not floating-point numbers; otherwise returns true, so that a
+/// static assertion can call it before anything else fails.
 template <class Point>
 constexpr bool check_coordinates() {
   static_assert(
       std::is_floating_point_v<std::decay_t<decltype(std::declval<const Point&>().x())>>,
-      "the points have coordinates that are not doubles, as those of Epeck: equiaffine works with kernels such "
-      "as Epick and Simple_cartesian<double>; CGAL::copy_face_graph copies a mesh to one of them");
+      "the points have exact coordinates, like those of Epeck: use a kernel with floating-point coordinates, such as "
+      "Epick or Simple_cartesian<double>; CGAL::copy_face_graph converts a mesh");
   return true;
 }
 
-/// Something from the elements of a range to their points: the map that is given, or that of the range, as
-/// CGAL::Point_set_3 has one, or nothing where the elements are the points.
+/// Returns a function from the elements of a range to their points: the given property map, or that of the range
+/// (CGAL::Point_set_3 has one), or the identity if the elements are points.
 template <class Range, class Parameters>
 auto point_of_element([[maybe_unused]] const Range& range, const Parameters& parameters) {
   if constexpr (internal::has_parameter<internal::Point_tag, Parameters>)
@@ -60,13 +60,13 @@ Eigen::Vector3d coordinates_of(const Vector& v) {
   return {CGAL::to_double(v.x()), CGAL::to_double(v.y()), CGAL::to_double(v.z())};
 }
 
-/// Points, with polygons between their positions.
+/// Points, and polygons as indices of points.
 struct Indexed_polygons {
   std::vector<Eigen::Vector3d> points = {};
   std::vector<std::vector<std::uint32_t>> polygons = {};
 };
 
-/// Twice the vector of the area of a polygon, the sum of those of a fan of triangles.
+/// Twice the vector area of a polygon, the sum over a fan of triangles.
 template <class Polygon>
 Eigen::Vector3d double_area_of_polygon(const std::vector<Eigen::Vector3d>& points, const Polygon& polygon) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -76,9 +76,10 @@ Eigen::Vector3d double_area_of_polygon(const std::vector<Eigen::Vector3d>& point
 }
 
 inline void check_points(const std::vector<Eigen::Vector3d>& points) {
-  check_argument(points.size() < std::numeric_limits<std::uint32_t>::max(), "a surface has fewer than 2^32 points");
+  check_argument(points.size() < std::numeric_limits<std::uint32_t>::max(),
+                 "the surface has too many points: pass fewer than 2^32 points");
   check_argument(std::all_of(points.begin(), points.end(), [](const auto& p) { return p.allFinite(); }),
-                 "a point has a coordinate that is not a finite number: remove it");
+                 "a point has a coordinate that is not finite: remove the point");
 }
 
 template <class Graph, class Parameters>
@@ -88,12 +89,12 @@ auto vertex_points(Graph& graph, const Parameters& parameters) {
   else return get(CGAL::vertex_point, graph);
 }
 
-/// The points that this map has.
+/// The type of the points in this map.
 template <class Graph, class Parameters>
 using Point_of_vertices = typename boost::property_traits<
     std::decay_t<decltype(vertex_points(std::declval<Graph&>(), std::declval<const Parameters&>()))>>::value_type;
 
-/// The points are those of the vertices, in their order.
+/// The points of the result are those of the vertices, in their order.
 template <Face_graph Graph, class Parameters>
 Indexed_polygons indexed_polygons_of_graph(const Graph& graph, const Parameters& parameters) {
   using Vertex = typename boost::graph_traits<Graph>::vertex_descriptor;
@@ -120,14 +121,15 @@ Indexed_polygons indexed_polygons_of_soup(const Points& points, const Polygons& 
   for (const auto& polygon : polygons) {
     auto& positions = result.polygons.emplace_back();
     for (const auto i : polygon) {
-      check_argument(std::size_t(i) < result.points.size(), "a polygon has the position of no point: give all points");
+      check_argument(std::size_t(i) < result.points.size(),
+                     "a polygon has an index that is not below the number of points: pass all points");
       positions.push_back(std::uint32_t(i));
     }
   }
   return result;
 }
 
-/// Returns the first of the points that are equal to each one.
+/// Returns for each point the index of the first point equal to it.
 inline std::vector<std::uint32_t> first_of_equal(const std::vector<Eigen::Vector3d>& points) {
   std::vector<std::uint32_t> order(points.size()), first(points.size());
   std::iota(order.begin(), order.end(), 0);
@@ -142,7 +144,7 @@ inline std::vector<std::uint32_t> first_of_equal(const std::vector<Eigen::Vector
 
 namespace equiaffine::internal {
 
-/// A triangle mesh in doubles.
+/// A triangle mesh with double coordinates.
 struct Triangles_3 {
   std::vector<Eigen::Vector3d> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -165,7 +167,7 @@ Triangles_3 triangles_of_graph(const Graph& graph, const Parameters& parameters)
   return triangles_of(indexed_polygons_of_graph(graph, parameters));
 }
 
-/// Triangles that share a corner are to know it, so that equal points become one.
+/// Merges equal points, so that triangles are connected at common corners.
 template <class Points, class Polygons>
 Triangles_3 triangles_of_soup(const Points& points, const Polygons& polygons) {
   Triangles_3 mesh = triangles_of(indexed_polygons_of_soup(points, polygons));
@@ -175,7 +177,7 @@ Triangles_3 triangles_of_soup(const Points& points, const Polygons& polygons) {
   return mesh;
 }
 
-/// The vertices of a graph in their order, and its faces, cut into triangles.
+/// The vertices of a graph, in their order, and its faces, triangulated.
 template <class Kernel, class Graph, class Parameters>
 Indexed_triangle_mesh_3<Kernel> triangle_mesh_of(const Graph& graph, const Parameters& parameters) {
   const Indexed_polygons mesh = indexed_polygons_of_graph(graph, parameters);

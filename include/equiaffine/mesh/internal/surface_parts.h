@@ -11,7 +11,7 @@
 
 namespace equiaffine::internal {
 
-/// The connected components of a surface, as sets of vertices.
+/// The connected components of a surface, as disjoint sets of vertices.
 template <class Kernel>
 Disjoint_sets<std::uint32_t> components_of(const Isosurface_3<Kernel>& surface) {
   Disjoint_sets<std::uint32_t> components(surface.points.size());
@@ -19,7 +19,7 @@ Disjoint_sets<std::uint32_t> components_of(const Isosurface_3<Kernel>& surface) 
   return components;
 }
 
-/// Removes the vertices that are in no triangle, and keeps the order of the others.
+/// Removes vertices that are in no triangle, preserving the order of the others.
 template <class Kernel>
 void remove_isolated_vertices(Isosurface_3<Kernel>& surface) {
   std::vector<bool> is_used(surface.points.size(), false);

@@ -18,10 +18,10 @@
 
 namespace equiaffine::internal {
 
-/// A polygon in space, projected along the vector of its area, which is cut into triangles.
+/// Triangulates a polygon in space, projected along its vector area.
 class Planar_polygon {
 public:
-  using Triangle = std::array<std::size_t, 3>; ///< numbers of corners
+  using Triangle = std::array<std::size_t, 3>; ///< indices of corners
 
   explicit Planar_polygon(const std::vector<Eigen::Vector3d>& corners) {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
@@ -60,7 +60,7 @@ private:
     return result;
   }
 
-  /// Twice the area of a triangle, positive if it turns to the left.
+  /// Twice the signed area of a triangle, positive if counterclockwise.
   double turn(std::size_t a, std::size_t b, std::size_t c) const {
     const Eigen::Vector2d x = corners_[b] - corners_[a], y = corners_[c] - corners_[a];
     return x[0] * y[1] - x[1] * y[0];
@@ -71,7 +71,7 @@ private:
     return {corners[(i + n - 1) % n], corners[i % n], corners[(i + 1) % n]};
   }
 
-  /// Returns the first ear from a place on; one without an area only if there is no other.
+  /// Returns the first ear from position `start` on; one of zero area only if there is no other.
   std::optional<std::size_t> find_ear(const std::vector<std::size_t>& corners, std::size_t start) const {
     std::optional<std::size_t> flat;
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -84,7 +84,8 @@ private:
     return flat;
   }
 
-  /// Whether no other corner lies in a triangle. Corners in the same place as its own are those of a slit.
+  /// Whether a triangle contains no other corner. Corners at the same place as its own belong to a slit and are
+  /// ignored.
   bool is_empty(const std::vector<std::size_t>& corners, const Triangle& t) const {
     return std::none_of(corners.begin(), corners.end(), [&](std::size_t p) {
       const bool is_own = std::any_of(t.begin(), t.end(), [&](std::size_t q) { return corners_[p] == corners_[q]; });
@@ -93,20 +94,19 @@ private:
   }
 
   std::vector<Eigen::Vector2d> corners_;
-  double rounding_; ///< of twice an area
+  double rounding_; ///< of the double area
 };
 
 } // namespace equiaffine::internal
 
 namespace equiaffine {
 
-/// Appends the triangles of a polygon, whose corners are positions of points: the fan around its first corner if no
-/// triangle of it is turned over, as in convex polygons, else ears that are cut off one after the other (G. H.
-/// Meisters, Polygons have ears, 1975). Polygons that cross themselves, and those of more than 1000 corners, are cut
-/// into the fan.
+/// Appends the triangles of a polygon given by indices of points: the fan around its first corner if that flips no
+/// triangle, as for convex polygons, otherwise by clipping ears (G. H. Meisters, Polygons have ears, 1975). For
+/// self-intersecting polygons and those with more than 1000 corners it is the fan.
 ///
 /// Takes linear time for a fan, and at most cubic time for ears.
-/// \pre the positions are those of points.
+/// \pre the indices are below the number of points
 template <class Points>
 void add_triangles_of_polygon(const Points& points, const std::vector<std::uint32_t>& polygon,
                               std::vector<std::array<std::uint32_t, 3>>& triangles) {

@@ -9,9 +9,9 @@
 
 namespace equiaffine {
 
-/// The chain rule for a linear change of variables: turns the jet of g at L(p) into the jet of g o L at p. The map acts
-/// on the homogeneous part of each degree by a fixed matrix, its symmetric power, which is built once: a jet of order 4
-/// then costs 370 products, or 34 when L is diagonal. Jets have the order `MaximalOrder` at most.
+/// The chain rule for a linear change of variables: maps the jet of g at L(p) to the jet of g o L at p. L acts on the
+/// homogeneous part of each degree by a fixed matrix, its symmetric power, which is precomputed: a jet of order 4 then
+/// costs 370 products, or 34 if L is diagonal. Supports jets up to order `MaximalOrder`.
 template <class FT, int MaximalOrder = internal::default_order>
 class Linear_substitution_3 {
 public:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elementary functions of numbers and packs. exp, sin and cos are computed by arithmetic alone: no lane of a pack needs
-// a call of the C library, and a lane has the bits of a single number whatever the instruction set is, unless the
-// compiler contracts products and sums. The schemes are those of Muller, Elementary Functions (2016): argument
-// reduction after Cody and Waite (section 11.2), then a Taylor polynomial.
+// Elementary functions of numbers and packs. exp, sin and cos use arithmetic only, without calls of the C library. A
+// lane of a pack is bitwise equal to a single number for any instruction set, unless the compiler contracts products
+// and sums. Method: argument reduction after Cody and Waite, then a Taylor polynomial (Muller, Elementary Functions,
+// 2016, section 11.2).
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_ELEMENTARY_FUNCTIONS_H
 #define EQUIAFFINE_NUMBER_INTERNAL_ELEMENTARY_FUNCTIONS_H
 
@@ -21,7 +21,7 @@
 
 namespace equiaffine::internal {
 
-/// The schemes hold for arguments up to these absolute values; beyond them, and for NaN, the C library is called.
+/// The largest absolute values of arguments for this method. Beyond them, and for NaN, the C library is called.
 inline constexpr double exponential_range = 708, circular_range = 1000;
 
 /// The integer nearest to x, |x| < 2^51, for rounding to nearest.
@@ -31,7 +31,7 @@ T nearest_integer(const T& x) {
   return (x + T(shift)) - T(shift);
 }
 
-/// 2^(k / 128) (1 + p) for small p and an integer k. The argument is k + 1.5 2^52, whose bits end in those of k.
+/// 2^(k / 128) (1 + p) for small p and an integer k. The argument is k + 1.5 2^52, whose low bits are those of k.
 inline double scaled_exponential(double k, double p) {
   const auto bits = bit_cast<std::int64_t>(k);
   const auto n = std::size_t(bits % Exponential_table::size);
@@ -39,7 +39,7 @@ inline double scaled_exponential(double k, double p) {
   return bit_cast<double>(bit_cast<std::int64_t>(e) + ((bits / Exponential_table::size) << 52));
 }
 
-/// c[First] + c[First + 1] x + ... of `Size` terms, by Estrin's scheme; powers[k] = x^(2^k).
+/// The sum c[First] + c[First + 1] x + ... of `Size` terms, by Estrin's scheme; powers[k] = x^(2^k).
 template <std::size_t First, std::size_t Size, class T, std::size_t N>
 T polynomial(const std::array<double, N>& c, const std::array<T, 4>& powers) {
   if constexpr (Size == 1) {
@@ -95,7 +95,7 @@ std::pair<T, T> sine_and_cosine_in_range(const T& x) {
   const T z = r * r, half_z = T(0.5) * z, one_minus = T(1) - half_z;
   const T s = r + (low * one_minus - r * z * polynomial(of_sine, z));
   const T q = one_minus + (((T(1) - one_minus) - half_z) + (z * z * polynomial(of_cosine, z) - r * low));
-  // x = r + k pi / 2, so the last two bits of k tell which of s and q is the sine and which signs they have
+  // x = r + k pi / 2, so the last two bits of k determine which of s and q is the sine, and their signs.
   const T half = k * T(0.5);
   const auto is_odd = nearest_integer(half) != half;
   const T quarter = select(is_odd, T(half - T(0.5)), half) * T(0.5);
@@ -103,7 +103,7 @@ std::pair<T, T> sine_and_cosine_in_range(const T& x) {
   return {sign * select(is_odd, q, s), sign * select(is_odd, T(-s), q)};
 }
 
-/// exp(x); the result for a double has the bits of a lane of a pack.
+/// exp(x). For doubles the result is bitwise equal to that of a lane of a pack.
 template <class T>
 T exp_value(const T& x) {
   using std::exp;
@@ -112,7 +112,7 @@ T exp_value(const T& x) {
   return exp(x);
 }
 
-/// (sin x, cos x); the results for a double have the bits of lanes of packs.
+/// (sin x, cos x). For doubles the results are bitwise equal to those of lanes of packs.
 template <class T>
 std::pair<T, T> sine_and_cosine(const T& x) {
   using std::cos;
@@ -122,7 +122,7 @@ std::pair<T, T> sine_and_cosine(const T& x) {
   return {sin(x), cos(x)};
 }
 
-/// x^n by repeated squaring, which loses up to n / 2 units in the last place, unless the C library does better.
+/// x^n by repeated squaring (error up to n / 2 units in the last place), or by std::pow for floating-point x and n > 8.
 template <class T>
 T natural_power(T x, unsigned n) {
   if constexpr (std::is_floating_point_v<T>)
@@ -138,8 +138,8 @@ T natural_power(T x, unsigned n) {
   return r;
 }
 
-/// The types of numbers that have these functions, of their own or in the standard library.
-namespace own_steps {
+/// Detects number types that have these functions, as their own or in the standard library.
+namespace own_functions {
 
 using std::erf, std::floor, std::fmod;
 
@@ -156,7 +156,7 @@ concept HasFmod = requires(const T& a) {
   { fmod(a, a) } -> std::convertible_to<T>;
 };
 
-} // namespace own_steps
+} // namespace own_functions
 
 } // namespace equiaffine::internal
 

@@ -15,19 +15,19 @@ namespace equiaffine {
 
 using internal::Monomial_set;
 
-/// A trivariate Taylor polynomial, truncated at total order `Order` <= 5: the expansion of a function of (x, y, z) at a
-/// point, sum of c_ijk dx^i dy^j dz^k with c_ijk = (d^(i+j+k) f / dx^i dy^j dz^k) / (i! j! k!). Order 4 has 35
-/// coefficients, kept in graded lexicographic order (1; x y z; xx xy xz yy yz zz; ...).
+/// A trivariate Taylor polynomial, truncated at total order `Order` <= 5. It is the expansion of a function of (x, y,
+/// z) at a point: the sum of c_ijk dx^i dy^j dz^k with c_ijk = (d^(i+j+k) f / dx^i dy^j dz^k) / (i! j! k!). Order 4 has
+/// 35 coefficients, stored in graded lexicographic order (1; x y z; xx xy xz yy yz zz; ...).
 ///
 /// Evaluating a function on the jets of the three coordinates yields its expansion: forward automatic differentiation
-/// (Griewank, Walther: Evaluating Derivatives, 2008, chapter 13). Jet_3.h has functions of jets.
+/// (Griewank, Walther: Evaluating Derivatives, 2008, chapter 13). Functions of jets are in Jet_3.h.
 ///
-/// `Support` is the set of monomials whose coefficient can differ from zero, known at compile time. A function written
-/// with `auto` for its intermediate results computes nothing that its structure makes zero; one with a single fixed
-/// type works on full jets, and may sum up in a loop, where the type of a sum cannot grow.
+/// `Support` is the set of monomials whose coefficients can be nonzero, known at compile time. A function that uses
+/// `auto` for intermediate results computes no coefficient that is zero by its structure. A function with one fixed
+/// type works on full jets; it can then accumulate sums in a loop, where the type cannot grow.
 ///
 /// `T` may be any number type with ring operations: float, double, multiprecision, Interval, a SIMD pack. The default
-/// constructor leaves the coefficients uninitialized when that of T does.
+/// constructor leaves the coefficients uninitialized if that of T does.
 template <class T, int Order = internal::default_order, Monomial_set Support = internal::all_monomials(Order)>
 class Jet_3 {
   static_assert(0 <= Order && Order <= internal::maximal_order);
@@ -48,13 +48,13 @@ public:
     c_[0] = value;
   }
 
-  /// The constant function of another built-in number.
+  /// The constant function, from another built-in type.
   template <class Number>
   Jet_3(const Number& value) requires(internal::contains(Support, 0) && std::is_arithmetic_v<Number> &&
                                       !std::same_as<Number, T>)
       : Jet_3(T(value)) {}
 
-  /// The same polynomial with a larger support.
+  /// The same polynomial, with a larger support.
   template <Monomial_set Other>
   Jet_3(const Jet_3<T, Order, Other>& other) requires((Other & ~Support) == 0 && Other != Support) {
     for_each_monomial([&](auto n) __attribute__((always_inline)) {
@@ -88,28 +88,28 @@ public:
 
   /// The coefficients of the monomials in the support, in their order.
   const std::array<T, size>& coefficients() const { return c_; }
-  std::array<T, size>& coefficients() { return c_; } ///< the same, to write to
+  std::array<T, size>& coefficients() { return c_; } ///< writable
 
-  /// Coefficient of monomial number N, a member of the support.
+  /// Coefficient of monomial number N. Precondition: N is in the support.
   template <int N>
   const T& at() const {
     return c_[std::size_t(internal::rank(Support, N))];
   }
-  /// The same, to write to.
+  /// The same, writable.
   template <int N>
   T& at() {
     return c_[std::size_t(internal::rank(Support, N))];
   }
 
-  /// Coefficient of monomial number N, zero if it is no member of the support.
+  /// Coefficient of monomial number N; zero if N is not in the support.
   template <int N>
   T coefficient_or_zero() const {
     if constexpr (internal::contains(Support, N)) return at<N>();
     else return T(0);
   }
 
-  /// Calls `f(std::integral_constant<int, n>)` for every monomial n of the support, unrolled. Here and below a lambda
-  /// that the compiler does not inline costs more than what it computes.
+  /// Calls `f(std::integral_constant<int, n>)` for every monomial n of the support, unrolled. The lambdas in this file
+  /// are forced inline because a call costs more than their computation.
   template <class F>
   [[gnu::always_inline]] static constexpr void for_each_monomial(F f) {
     [&]<std::size_t... Rank>(std::index_sequence<Rank...>) __attribute__((always_inline)) {
@@ -118,7 +118,7 @@ public:
     (std::make_index_sequence<size>());
   }
 
-  /// The opposite polynomial.
+  /// The negated polynomial.
   Jet_3 operator-() const {
     Jet_3 r;
     for_each_monomial([&](auto n) __attribute__((always_inline)) { r.template at<n>() = -this->template at<n>(); });
@@ -127,7 +127,7 @@ public:
   Jet_3 operator+() const { return *this; } ///< the same polynomial
 
   /// @{
-  /// Arithmetic with a jet whose monomials are in the support, or with a number.
+  /// Arithmetic with a number, or with a jet whose result fits the support.
   template <class Other>
   Jet_3& operator+=(const Other& other) {
     return assign(*this + other);
@@ -150,7 +150,7 @@ private:
   template <class Result>
   Jet_3& assign(const Result& result) {
     static_assert(std::is_convertible_v<Result, Jet_3>,
-                  "the result has monomials that the left side does not have: name it anew, `auto t = s + y * y`, or "
+                  "the result has monomials that the left side lacks: use a new variable, `auto t = s + y * y`, or "
                   "give the function one type for all its arguments");
     return *this = result;
   }
@@ -158,7 +158,7 @@ private:
   std::array<T, size> c_;
 };
 
-/// The numbers that arithmetic combines with a jet over T.
+/// Number types that can be combined with a jet over T.
 template <class S, class T>
 concept JetScalar = std::same_as<S, T> || std::is_arithmetic_v<S>;
 
@@ -183,7 +183,7 @@ T product_coefficient(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) 
 
 template <int Target, class T, int Order, Monomial_set A>
 T square_coefficient(const Jet_3<T, Order, A>& a) {
-  using Pairs = Factor_pairs<A, A, Target>; // with (p, q) the list has (q, p)
+  using Pairs = Factor_pairs<A, A, Target>; // contains (q, p) for every (p, q)
   T mixed = T(0), pure = T(0);
   bool has_mixed = false;
   [&]<std::size_t... P>(std::index_sequence<P...>) __attribute__((always_inline)) {
@@ -209,7 +209,7 @@ T square_coefficient(const Jet_3<T, Order, A>& a) {
 } // namespace internal
 
 /// @{
-/// Arithmetic of truncated polynomials, and of these with numbers.
+/// Arithmetic of truncated polynomials and numbers.
 template <class T, int Order, Monomial_set A>
 auto square(const Jet_3<T, Order, A>& a) {
   Jet_3<T, Order, internal::product_of_sets(A, A, Order)> r;
@@ -240,7 +240,7 @@ auto operator-(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   return r;
 }
 
-/// The truncated product. A jet times itself is a square: half the multiplications.
+/// The truncated product. A jet times itself is computed as a square, with half the multiplications.
 template <class T, int Order, Monomial_set A, Monomial_set B>
 auto operator*(const Jet_3<T, Order, A>& a, const Jet_3<T, Order, B>& b) {
   if constexpr (A == B)
@@ -290,8 +290,8 @@ auto operator/(const Jet_3<T, Order, A>& a, const S& s) {
 /// @}
 
 /// phi(a) for a univariate function phi with Taylor coefficients t[k] = phi^(k)(a_0) / k! at the value a_0 of the jet.
-/// With the homogeneous parts n1, n2, n3 of a - a_0 the powers need 111 products for a full jet, fewer than one product
-/// of two full jets (210) of order 4: no power is formed beyond the total order.
+/// Using the homogeneous parts n1, n2, n3 of a - a_0, a full jet of order 4 needs 111 products, fewer than one product
+/// of two full jets (210): no power is formed beyond the total order.
 template <class T, int Order, Monomial_set A>
 auto compose(const Jet_3<T, Order, A>& a, const std::array<T, 6>& t) {
   const auto n1 = internal::homogeneous_part<1>(a);
@@ -311,7 +311,7 @@ auto compose(const Jet_3<T, Order, A>& a, const std::array<T, 6>& t) {
 }
 
 /// @{
-/// Division, by the power series of 1 / b.
+/// Division, using the power series of 1 / b.
 template <class T, int Order, Monomial_set A>
 auto reciprocal(const Jet_3<T, Order, A>& a) {
   const T r = T(1) / a.value();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The two ways to keep the lanes of a pack. They have the same members, and results are the same bit for bit.
+// Two ways to store the lanes of a pack. They have the same members and bitwise equal results.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_LANES_H
 #define EQUIAFFINE_NUMBER_INTERNAL_LANES_H
 
@@ -15,7 +15,7 @@
 
 namespace equiaffine::internal {
 
-/// The lanes of a pack as an array, for compilers without vectors.
+/// The lanes of a pack as an array, for compilers without vector types.
 template <class T, std::size_t Size>
 struct Array_lanes {
   static constexpr std::size_t size = Size;
@@ -87,7 +87,7 @@ struct Array_lanes {
     T values_[Size];
   };
 
-  /// Lane i is f(i).
+  /// The vector with f(i) in lane i.
   template <class F>
   static Vector generate(F f) {
     Vector result;
@@ -126,14 +126,14 @@ struct Array_lanes {
 
 #if defined(__GNUC__) && !defined(EQUIAFFINE_WITHOUT_SIMD) // has_simd
 
-/// A vector of the compiler. It is a type of its own only from outside of the template that defines it.
+/// A vector type of the compiler. It must be defined outside of the template that uses it to be a distinct type.
 template <class T, std::size_t Size>
 struct Register {
   typedef T type __attribute__((vector_size(Size * sizeof(T))));
 };
 
-/// The lanes of a pack as a vector of the compiler, an extension of the language that GCC and Clang have. We do without
-/// <experimental/simd>, which Clang's library lacks, and which takes as long to compile as half of CGAL::Surface_mesh.
+/// The lanes of a pack as a vector type of GCC and Clang. <experimental/simd> is not used: Clang's library lacks it,
+/// and it takes half as long to compile as CGAL::Surface_mesh.
 template <class T, std::size_t Size>
 struct Simd_lanes {
   static constexpr std::size_t size = Size;
@@ -151,7 +151,7 @@ private:
   }
 
 public:
-  /// All bits of a lane are set where the value is true, and none where it is false.
+  /// All bits of a lane are set if the value is true, and none if it is false.
   struct Mask {
     Integers bits;
 
@@ -196,7 +196,7 @@ public:
 #undef EQUIAFFINE_COMPARISON
   };
 
-  /// Lane i is f(i).
+  /// The vector with f(i) in lane i.
   template <class F>
   static Vector generate(const F& f) {
     return fill<Numbers>(f, Indices());
@@ -215,7 +215,7 @@ public:
 
   [[gnu::always_inline]] static Vector sqrt(const Vector& a) { return square_roots(a.numbers); }
 
-  /// Does in each lane what internal::scaled_exponential does for a double.
+  /// internal::scaled_exponential() of a double in each lane.
   [[gnu::always_inline]] static Vector scaled_exponential(const Vector& k, const Vector& p) {
     using Table = Exponential_table;
     const Integers bits = (Integers)k.numbers;
@@ -233,8 +233,7 @@ private:
     (Indices());
   }
 
-  /// The square roots as the processor computes them: std::sqrt would have to set errno for negative numbers, one by
-  /// one.
+  /// The processor's square roots. std::sqrt would have to set errno for negative numbers, one by one.
   [[gnu::always_inline]] static Numbers square_roots(const Numbers& a) {
 #if __has_builtin(__builtin_elementwise_sqrt)
     return __builtin_elementwise_sqrt(a);

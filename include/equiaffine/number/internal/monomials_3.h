@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The monomials x^i y^j z^k of total degree <= 5 in graded lexicographic order (1; x y z; xx xy xz yy yz zz; ...), sets
-// of them as bit masks, and the lists of products that a truncated multiplication of two such sets needs.
+// of them as bit masks, and the products needed for a truncated multiplication of two such sets.
 #ifndef EQUIAFFINE_NUMBER_INTERNAL_MONOMIALS_3_H
 #define EQUIAFFINE_NUMBER_INTERNAL_MONOMIALS_3_H
 
@@ -13,8 +13,8 @@
 
 namespace equiaffine::internal {
 
-inline constexpr int default_order = 4; // that of the affine structure
-inline constexpr int maximal_order = 5; // that of its gradient
+inline constexpr int default_order = 4; // for the affine structure
+inline constexpr int maximal_order = 5; // for its gradient
 
 constexpr int number_of_monomials(int order) { return (order + 1) * (order + 2) * (order + 3) / 6; }
 
@@ -32,7 +32,7 @@ inline constexpr auto monomials = [] {
   return table;
 }();
 
-// This is a table because a search would run at run time wherever (i, j, k) is not a constant.
+// A table, because a search would run at run time if (i, j, k) is not constant.
 inline constexpr auto monomial_indices = [] {
   std::array<std::array<std::array<std::int8_t, maximal_order + 1>, maximal_order + 1>, maximal_order + 1> table{};
   for (std::size_t n = 0; n < monomials.size(); ++n)
@@ -52,17 +52,17 @@ constexpr Monomial_set monomials_of_degree(int degree) {
   return degree == 0 ? Monomial_set(1) : all_monomials(degree) & ~all_monomials(degree - 1);
 }
 
-/// The members of a set that have the given degree; there are none if it exceeds the order.
+/// The members of a set with the given degree; empty if the degree exceeds the order.
 constexpr Monomial_set members_of_degree(Monomial_set set, int degree, int order) {
   return degree <= order ? set & monomials_of_degree(degree) : 0;
 }
 
 constexpr bool contains(Monomial_set set, int n) { return (set >> n & 1) != 0; }
 
-/// Position of monomial n among the members of a set that contains it.
+/// Position of monomial n in a set that contains it.
 constexpr int rank(Monomial_set set, int n) { return std::popcount(set & ((Monomial_set(1) << n) - 1)); }
 
-/// The member of a set at the given position, the inverse of rank().
+/// The member of a set at the given position; the inverse of rank().
 constexpr int member(Monomial_set set, std::size_t position) {
   for (; position > 0; --position) set &= set - 1;
   return std::countr_zero(set);
@@ -89,7 +89,7 @@ constexpr Monomial_set product_of_sets(Monomial_set a, Monomial_set b, int order
   return product & all_monomials(order);
 }
 
-/// The monomials that a smooth function of a jet with the given support can have.
+/// The monomials that can occur in a smooth function of a jet with the given support.
 constexpr Monomial_set closure(Monomial_set set, int order) {
   Monomial_set powers = 1;
   for (int n = 0; n < order; ++n) powers |= product_of_sets(powers, set, order);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces as register_surfaces(), affine_symmetries() and the program give them to the searches for maps.
+// Surfaces as input of the searches for maps in register_surfaces(), affine_symmetries() and the program.
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_SURFACE_TO_REGISTER_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_SURFACE_TO_REGISTER_H
 
@@ -41,16 +41,16 @@ class Transformed_function_traits_3;
 
 namespace equiaffine::internal {
 
-/// The origin of the derivatives of a surface, which says how well they are known.
+/// The origin of the derivatives of a surface, which determines their accuracy.
 enum class Surface_origin {
-  FUNCTION,   ///< they are exact
+  FUNCTION,   ///< exact
   SPLINE,     ///< a spline through samples
-  RAW_VOLUME, ///< a spline through the samples of a volume that are not smoothed
+  RAW_VOLUME, ///< a spline through unsmoothed samples of a volume
   DISTANCE,   ///< a spline through distances from facets
   FIT         ///< polynomials fitted to the vertices of a mesh, or to points
 };
 
-/// That of a function of a type.
+/// The origin for a type of function.
 template <class Traits>
 inline constexpr Surface_origin origin_of = Surface_origin::FUNCTION;
 template <class Kernel>
@@ -64,33 +64,33 @@ inline constexpr Surface_origin origin_of<Transformed_function_traits_3<Base>> =
 
 using Mesh_of_searches = Indexed_triangle_mesh_3<Kernel_of_searches>;
 
-/// A surface that is moved onto another one, or onto itself.
+/// A surface to move onto another one, or onto itself.
 struct Surface_to_register {
   Any_function_3 function;                       ///< its zero set is the surface
-  std::optional<Any_function_3> unsmoothed = {}; ///< if the function is a spline through smoothed samples
+  std::optional<Any_function_3> unsmoothed = {}; ///< set if the function is a spline through smoothed samples
   Mesh_of_searches mesh = {};                    ///< points on the surface, with triangles if they are known
   Mesh_of_searches extracted = {};               ///< by Marching Cubes, if the surface is a fit to points without faces
-  bool is_mesh = false;                          ///< whether the triangles are the surface, and not the function
+  bool is_mesh = false;                          ///< whether the triangles are the surface, rather than the function
   Surface_origin origin = Surface_origin::FUNCTION;
-  std::optional<double> given_scale = {}; ///< of a fit, if it was asked for
-  std::optional<double> scale = {};       ///< of the curvatures of a fit, unless they are the surface's own
-  double spacing = 0;                     ///< the mean distance of the points of a fit, in the unit of its scale
-  /// Makes the surface of a fit whose scale the data chose at another scale. Throws `Input_error` where it cannot be
-  /// made.
+  std::optional<double> given_scale = {}; ///< of a fit, if it was requested
+  std::optional<double> scale = {};       ///< of the curvatures of a fit, unless they are those of the surface itself
+  double spacing = 0;                     ///< mean distance of the points of a fit, in the unit of its scale
+  /// Makes the surface at another scale, for a fit whose scale was chosen from the data. Throws `Input_error` if
+  /// that is not possible.
   std::function<Surface_to_register(double scale)> at_scale = {};
 
-  /// The function on which maps are refined and judged: smoothing does not commute with affine maps.
+  /// The function used to refine and judge maps: smoothing does not commute with affine maps.
   const Any_function_3& refined() const { return unsmoothed ? *unsmoothed : function; }
   const Mesh_of_searches& shown() const { return mesh.triangles.empty() ? extracted : mesh; }
 };
 
-/// A mesh, or points without triangles. The points may have normals, all of length 1.
+/// A mesh, or points without triangles. The points may have unit normals.
 struct Surface_data_3 {
   Mesh_of_searches mesh;
   std::vector<Kernel_of_searches::Vector_3> normals = {};
 };
 
-/// The diagonal of the box around points.
+/// The diagonal of the bounding box of points.
 inline double diagonal_of(const std::vector<Kernel_of_searches::Point_3>& points) {
   CGAL::Bbox_3 box;
   for (const auto& p : points) box += p.bbox();
@@ -105,25 +105,25 @@ inline Mesh_of_searches moved_mesh(Mesh_of_searches mesh, const Kernel_of_search
   return mesh;
 }
 
-// The library defines these functions. They run in the threads of TBB if `in_threads`.
+// Defined in the library. They use TBB threads if `in_threads`.
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility push(default)
 #endif
 
-/// The distances of points from the image of a surface under the inverse of `back`, to first order; NaN outside of the
-/// image of its domain.
+/// The distances of points from the image of a surface under the inverse of `back`, to first order; NaN outside of
+/// the image of its domain.
 std::vector<double> distances_from_image(bool in_threads, const std::vector<Kernel_of_searches::Point_3>& points,
                                          const Any_function_3& surface,
                                          const Kernel_of_searches::Aff_transformation_3& back = CGAL::IDENTITY);
 
-/// The mean distance of points from their six neighbors.
+/// The mean distance of points from their six nearest neighbors.
 double mean_spacing(bool in_threads, const std::vector<Kernel_of_searches::Point_3>& points);
 
 #ifdef EQUIAFFINE_SHARED
 #pragma GCC visibility pop
 #endif
 
-// What users give becomes surfaces and data.
+// Conversion of arguments of users to surfaces and data.
 
 template <class Points>
 std::vector<Kernel_of_searches::Point_3> points_of_range(const Points& points) {
@@ -138,12 +138,12 @@ Surface_to_register surface_of_function(const Traits& traits, const Points& poin
   return {.function = Any_function_3::make(traits), .mesh = {points_of_range(points), {}}, .origin = origin_of<Traits>};
 }
 
-/// A mesh or points, as users give them.
+/// A mesh or points, as users pass them.
 template <class Data>
 concept Mesh_or_points = Face_graph<Data> ||(std::ranges::input_range<Data> && !ImplicitFunctionTraits_3<Data>);
 
 inline Surface_data_3 checked_mesh(Mesh_of_searches mesh) {
-  check_argument(!mesh.triangles.empty(), "a mesh has no faces: give faces, or its points alone");
+  check_argument(!mesh.triangles.empty(), "the mesh has no faces: give faces, or only its points");
   return {std::move(mesh)};
 }
 
@@ -160,7 +160,7 @@ Surface_data_3 surface_data(const Graph& graph, const Parameters& parameters) {
   return checked_mesh(triangle_mesh_of<Kernel_of_searches>(graph, parameters));
 }
 
-/// Normals count if each of them has a direction.
+/// Normals are used only if each of them has a direction.
 template <class Points, class Parameters>
 Surface_data_3 surface_data(const Points& range, const Parameters& parameters) requires(!Face_graph<Points>) {
   const auto point_of = point_of_element(range, parameters);
@@ -171,7 +171,7 @@ Surface_data_3 surface_data(const Points& range, const Parameters& parameters) r
       normals.push_back(coordinates_of(get(given_parameter<Normal_tag>(parameters), element)));
   }
   check_points(points);
-  check_argument(!points.empty(), "a surface has no points: give points on it");
+  check_argument(!points.empty(), "the surface has no points: give points on it");
   Surface_data_3 data;
   for (const auto& p : points) data.mesh.points.emplace_back(p[0], p[1], p[2]);
   for (const auto& n : normals) {

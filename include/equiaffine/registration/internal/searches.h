@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What all searches of maps share, and how their results become those of another kernel. The functions of the library
-// that search name no type of Eigen among their parameters, since its namespace has another name in the library.
+// Common parts of all searches for maps, and the conversion of their results to another kernel. The parameters of
+// search functions in the library contain no Eigen types, because the library renames the namespace of Eigen.
 #ifndef EQUIAFFINE_REGISTRATION_INTERNAL_SEARCHES_H
 #define EQUIAFFINE_REGISTRATION_INTERNAL_SEARCHES_H
 
@@ -25,11 +25,11 @@ std::vector<Eigen::Vector3d> vectors_of(const Points& points) {
   return result;
 }
 
-/// The greatest condition of the linear part of a map between surfaces. With it, the rounding of coordinates to 1e-16
-/// makes errors of 1e-12, as large as those that maps between formulas have anyway.
+/// The largest condition number of the linear part of a map between surfaces. With it, rounding of coordinates to
+/// 1e-16 causes errors of 1e-12, as large as those of maps between formulas anyway.
 inline constexpr double greatest_condition = 1e4;
 
-/// A map is accepted if as good ones are expected less often than ten to this power by chance.
+/// A map is accepted if the expected number of equally good accidental maps is below ten to this power.
 inline constexpr double accepted_log10 = -6;
 
 inline double determinant_of(const Kernel_of_searches::Aff_transformation_3& map) {
@@ -37,7 +37,7 @@ inline double determinant_of(const Kernel_of_searches::Aff_transformation_3& map
                            map.m(2, 1), map.m(2, 2));
 }
 
-/// The result of a search in another kernel.
+/// Converts the result of a search to another kernel.
 template <class Kernel>
 typename Kernel::Aff_transformation_3 in_kernel(const Kernel_of_searches::Aff_transformation_3& map) {
   const auto m = [&](int i, int j) { return typename Kernel::FT(map.m(i, j)); };

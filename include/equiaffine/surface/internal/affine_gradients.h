@@ -15,16 +15,16 @@
 
 namespace equiaffine::internal {
 
-/// The derivative of a function at 0 with an estimate of its error.
+/// The derivative of a function at 0 and an estimate of its error.
 template <class FT>
 struct Derivative {
   FT value = std::numeric_limits<FT>::quiet_NaN(), error = std::numeric_limits<FT>::infinity();
 };
 
-/// The derivatives at 0 of three functions of a number, `f(t)`, by central differences with steps `step`, `step` / 2,
-/// ..., extrapolated to step 0; for each function the entry of the table that differs least from its neighbors
-/// (Ridders: Accurate computation of F'(x) and F'(x) F''(x), 1982). Steps at which a function is not finite do not
-/// count.
+/// The derivatives at 0 of three functions `f(t)` by central differences with steps `step`, `step` / 2, ...,
+/// extrapolated to step 0. For each function, returns the entry of the extrapolation table that differs least from
+/// its neighbors (Ridders: Accurate computation of F'(x) and F'(x) F''(x), 1982). Steps at which a function is not
+/// finite are skipped.
 template <class FT, class F>
 std::array<Derivative<FT>, 3> derivatives_at_zero(F f, FT step) {
   constexpr std::size_t levels = 10;
@@ -53,18 +53,18 @@ std::array<Derivative<FT>, 3> derivatives_at_zero(F f, FT step) {
   return best;
 }
 
-/// The structure at a point, and the derivatives of K, H and J along the principal directions there. They are NaN where
-/// the point is not regular.
+/// The structure at a point, and the derivatives of K, H, and J along the principal directions. The derivatives are
+/// NaN if the point is not regular.
 template <class FT>
 struct Differentiated_structure_3 {
   Local_structure_3<FT> structure;
   std::array<FT, 3> along1, along2;
 };
 
-/// The gradients of K, H and J on the level set, as covectors to be applied to tangent vectors, from derivatives of
-/// order 5: the chart of an expansion whose coefficients are expansions of order 1, in natural units. These are along
-/// the vectors e_u and e_v of the chart, or conjugate ones, since derivatives along the axes would lose digits: where f
-/// is nearly a square, f_z changes much along the axes, but little along the surface.
+/// The gradients of K, H, and J on the level set, as covectors on tangent vectors, from derivatives of order 5: the
+/// chart of an expansion whose coefficients are expansions of order 1, in natural units. The inner expansions are
+/// along the vectors e_u and e_v of the chart, or conjugate ones. Derivatives along the axes would lose digits: if f
+/// is nearly a square, f_z varies strongly along the axes but little along the surface.
 template <class FT>
 std::array<std::array<FT, 3>, 3> gradients_of_invariants(const Jet_3<FT, 5>& given) {
   using Number = Jet_3<FT, 1>;
@@ -99,9 +99,9 @@ std::array<std::array<FT, 3>, 3> gradients_of_invariants(const Jet_3<FT, 5>& giv
   return gradients;
 }
 
-/// The derivatives of K, H and J at a regular point along a unit vector, from differences of invariants of neighboring
-/// level sets; NaN where these have an error of more than a hundredth, or, where a derivative vanishes, of more than a
-/// millionth of what is natural there.
+/// The derivatives of K, H, and J at a regular point along a unit vector, from differences of invariants of
+/// neighboring level sets. They are NaN if the error exceeds a hundredth of the derivative and, for derivatives near
+/// 0, a millionth of its natural size.
 template <class Traits>
 std::array<typename Traits::FT, 3> differences_along(const Traits& traits, const typename Traits::Point_3& p,
                                                      const Local_structure_3<typename Traits::FT>& structure,
@@ -149,14 +149,14 @@ Differentiated_structure_3<typename Traits::FT> differentiated_structure(const T
   return result;
 }
 
-/// Returns the norms of the gradients, which exist also where the frame does not, as on a sphere.
+/// Returns the norms of the gradients, which exist even where the frame does not, for example on a sphere.
 template <class FT>
 std::array<FT, 3> gradient_norms_of(const Differentiated_structure_3<FT>& s) {
   const auto& euclidean = s.structure.euclidean;
   const FT scale = std::sqrt(std::sqrt(std::abs(euclidean.gaussian_curvature)));
   std::array<FT, 3> norms;
   for (std::size_t n = 0; n < 3; ++n) {
-    const FT size = std::abs(s.along1[n]) + std::abs(s.along2[n]); // whose square may overflow
+    const FT size = std::abs(s.along1[n]) + std::abs(s.along2[n]); // its square may overflow
     const FT part1 = s.along1[n] / size, part2 = s.along2[n] / size;
     const FT square = std::abs(scale * (part1 * part1 / euclidean.k1 + part2 * part2 / euclidean.k2));
     norms[n] = size == FT(0) ? size : FT(size * std::sqrt(square));
@@ -164,7 +164,7 @@ std::array<FT, 3> gradient_norms_of(const Differentiated_structure_3<FT>& s) {
   return norms;
 }
 
-/// Returns the derivatives along e1 and e2 of the frame, which are combinations of the principal directions.
+/// Returns the derivatives along e1 and e2 of the affine frame, which are combinations of the principal directions.
 template <class FT>
 std::array<std::array<FT, 2>, 3> gradients_in_frame(const Differentiated_structure_3<FT>& s) {
   const auto& euclidean = s.structure.euclidean;
@@ -187,30 +187,30 @@ std::array<std::array<FT, 2>, 3> gradients_in_frame(const Differentiated_structu
 
 namespace equiaffine {
 
-/// Computes the norms of the gradients of K, H and J on the surface in the affine metric, in this order. Together with
-/// K, H and J they are the signature of the surface at p, which affine maps of determinant 1 keep. A norm is the root
-/// of the absolute value of |K_e|^(1/4) (a^2 / k1 + b^2 / k2), where a and b are the derivatives along the principal
-/// directions. On hyperbolic surfaces the metric is indefinite, and the norm is 0 for gradients along an asymptotic
-/// direction, too. Units: length^(-15/4), length^(-9/4), length^(-9/4).
+/// Computes the norms of the gradients of K, H, and J on the surface in the affine metric, in this order. Together
+/// with K, H, and J they are the signature of the surface at p, which is invariant under affine maps of
+/// determinant 1. A norm is the root of the absolute value of |K_e|^(1/4) (a^2 / k1 + b^2 / k2), where a and b are
+/// the derivatives along the principal directions. On hyperbolic surfaces the metric is indefinite, and the norm is
+/// also 0 for gradients along an asymptotic direction. Units: length^(-15/4), length^(-9/4), length^(-9/4).
 ///
-/// These are derivatives of order 5: those of the function if it has \ref fifth_order(), else differences of invariants
-/// of neighboring level sets, which take 40 expansions and are NaN where they are not known to a hundredth. All are NaN
-/// where p is not regular.
+/// They depend on derivatives of order 5: those of the function if it has \ref fifth_order(), otherwise differences
+/// of invariants of neighboring level sets, which take 40 expansions and are NaN if their error may exceed a
+/// hundredth. All are NaN if p is not regular.
 template <ImplicitFunctionTraits_3 Traits>
 std::array<typename Traits::FT, 3> affine_gradient_norms(const Traits& traits, const typename Traits::Point_3& p) {
   return internal::gradient_norms_of(internal::differentiated_structure(traits, p));
 }
 
-/// The gradients of K, H and J on the surface at a point, each as the derivatives along the vectors e1 and e2 of its
-/// affine_frame(). With a the determinant of a map they have the weights a^(-5/4), a^(-3/4) and a^(-3/4); the norms of
-/// affine_gradient_norms() are the roots of a^2 + b^2 at an elliptic point and of |2 a b| at a hyperbolic one.
+/// The gradients of K, H, and J on the surface at a point, each as the derivatives along the vectors e1 and e2 of its
+/// affine_frame(). With a the determinant of a map they have the weights a^(-5/4), a^(-3/4), and a^(-3/4). The norms
+/// of affine_gradient_norms() are the roots of a^2 + b^2 at an elliptic point and of |2 a b| at a hyperbolic one.
 template <class FT>
 struct Affine_gradients_3 {
   std::array<FT, 2> gaussian_curvature, mean_curvature, pick_invariant;
 };
 
-/// Computes the gradients as affine_gradient_norms() does. They are those for the side that the gradient of f points
-/// to, and NaN where the frame does not exist.
+/// Computes the gradients like affine_gradient_norms(), for the side to which the gradient of f points. They are NaN
+/// where the frame does not exist.
 template <ImplicitFunctionTraits_3 Traits>
 Affine_gradients_3<typename Traits::FT> affine_gradients(const Traits& traits, const typename Traits::Point_3& p) {
   const auto gradients = internal::gradients_in_frame(internal::differentiated_structure(traits, p));

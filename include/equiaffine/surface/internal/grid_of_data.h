@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The grid on which the surface of a mesh or of points is sampled, unless another one is asked for.
+// The default grid on which the surface of a mesh or of points is sampled.
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_GRID_OF_DATA_H
 #define EQUIAFFINE_SURFACE_INTERNAL_GRID_OF_DATA_H
 
@@ -16,11 +16,11 @@
 
 namespace equiaffine::internal {
 
-/// Its nodes along each axis.
+/// The number of nodes along each axis.
 inline constexpr std::array<std::size_t, 3> nodes_of_data = {129, 129, 129};
 
-/// The box of points, widened on all sides by a tenth of its longest side, or by more than any coordinate if all points
-/// are equal.
+/// The bounding box of points, widened on all sides by a tenth of its longest side. If all points are equal, the
+/// margin is larger than any coordinate.
 template <class Points>
 CGAL::Bbox_3 widened_box(const Points& points) {
   CGAL::Bbox_3 box;
@@ -32,8 +32,8 @@ CGAL::Bbox_3 widened_box(const Points& points) {
           box.xmax() + margin, box.ymax() + margin, box.zmax() + margin};
 }
 
-/// The height over the data up to which samplers need values of their fit: Marching Cubes asks for them at the corners
-/// of a cell, the Delaunay mesher at the distance of a radius, which is the default one or `radius`.
+/// The height above the data up to which samplers need values of a fit: Marching Cubes needs them at the corners of a
+/// cell, the Delaunay mesher at a distance of the facet radius, which is the default one or `radius`.
 inline double height_of_band(const std::array<std::size_t, 3>& nodes, const CGAL::Bbox_3& box, double radius = 0) {
   const auto [x, y, z] = Lattice_3<CGAL::Simple_cartesian<double>>(nodes, box).steps();
   return 2 * std::max({radius, std::sqrt((x + y + z).squared_length()), default_facet_radius(box)});

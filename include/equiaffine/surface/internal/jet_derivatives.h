@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Derivatives of a function as vectors and matrices, from its jet, and the step to a curve that they give.
+// Derivatives of a function as vectors and matrices from its jet, and the Newton step to a curve.
 #ifndef EQUIAFFINE_SURFACE_INTERNAL_JET_DERIVATIVES_H
 #define EQUIAFFINE_SURFACE_INTERNAL_JET_DERIVATIVES_H
 
@@ -47,7 +47,7 @@ Eigen::Matrix3d eigen_hessian_along(const Jet& jet, int axis) {
   return change;
 }
 
-/// The shortest step of Newton's method to the curve f = g = 0, from the jets of f and g at a point; not finite where
+/// The minimum-norm step of Newton's method to the curve f = g = 0 from the jets of f and g at a point; not finite if
 /// the gradients are parallel.
 template <class Vector_3, class Jet_f, class Jet_g>
 Vector_3 step_to_curve(const Jet_f& f, const Jet_g& g) {

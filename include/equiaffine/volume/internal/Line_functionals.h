@@ -14,8 +14,8 @@
 
 namespace equiaffine::internal {
 
-/// The rule by which the samples of a line become a spline: they are smoothed by a scale in steps (0 for none), then a
-/// scheme with two degrees gives the coefficients.
+/// How the samples of a line become a spline: they are smoothed by a scale in steps (0 for none), then a scheme with
+/// two degrees computes the coefficients.
 template <class FT>
 struct Spline_rule {
   int degree;
@@ -24,10 +24,10 @@ struct Spline_rule {
   FT smoothing;
 };
 
-/// The kinds of the cells of a line. Cells of the same kind depend in the same way on the samples around them: each
-/// cell near an end is a kind of its own, and the cells between are all of one kind.
+/// The kinds of the cells of a line. Cells of the same kind depend in the same way on the samples around them. Each
+/// cell near an end is a kind of its own; all cells between are of one kind.
 ///
-/// A kind is named by its representative, the cell with that number in a line of `kinds` cells.
+/// The index of a kind is that of its representative: a cell in a line of `kinds` cells.
 struct Cell_kinds {
   std::size_t cells = 0, kinds = 0;
 
@@ -38,9 +38,9 @@ struct Cell_kinds {
   }
 };
 
-/// The effect of the samples of a line on a tensor product spline along one axis: the Taylor coefficients of order 0 ..
-/// 4 in the middle of a cell are linear functions of the samples, and this class has the coefficients of these
-/// functions. A line that is longer than both borders reach is represented by a shorter one.
+/// The effect of the samples of a line on a tensor product spline along one axis. The Taylor coefficients of order 0
+/// .. 4 in the middle of a cell are linear functionals of the samples; this class has their coefficients. A line
+/// longer than the reach of both borders is represented by a shorter one.
 template <class FT>
 class Line_functionals {
 public:
@@ -61,8 +61,8 @@ public:
     });
   }
 
-  /// The functionals of a kind of cells: row d has the coefficients of the Taylor coefficient of order d in the
-  /// representative of the kind, one for each sample of the representative line.
+  /// The functionals of a kind of cells. Row d has the Taylor coefficient of order d in the representative of the
+  /// kind, one entry for each sample of the representative line.
   Rows rows(std::size_t kind) const {
     Rows rows;
     for (std::size_t d = 0; d < orders; ++d) {
@@ -73,8 +73,8 @@ public:
     return rows;
   }
 
-  /// The sum of the magnitudes of all terms of the Taylor coefficient of order d, for samples of magnitude 1: how much
-  /// rounding can change it. It is at least the sum over the row, in which terms have canceled.
+  /// The sum of the magnitudes of all terms of the Taylor coefficient of order d for samples of magnitude 1, which
+  /// bounds the effect of rounding. It is at least the sum of magnitudes over the row, in which terms have canceled.
   FT gain(std::size_t kind, std::size_t d) const {
     FT sum = 0;
     for (std::size_t r = 0; r < basis_[d].size(); ++r)
@@ -85,14 +85,15 @@ public:
   Cell_kinds kinds() const { return {cells_, nodes_ - 1}; }
 
 private:
-  /// The number of nodes with which a line has room for both borders: the windows of the smoothing, the reaches of the
-  /// filter and of the spline. A recursive filter has decayed to 0.61^40 = 3e-9 after 40 nodes.
+  /// The number of nodes of a line that has room for both borders: the windows of the smoothing, and the reaches of
+  /// the filter and of the spline. A recursive filter has decayed to 0.61^40 = 3e-9 after 40 nodes.
   static std::size_t sufficient_nodes(const Spline_rule<FT>& rule) {
     const std::size_t decay = rule.scheme == Spline_scheme::INTERPOLATION ? 40 : 0;
     return 2 * (2 * Smoothing_filter<FT>::radius_of(rule.smoothing) + 2 * std::size_t(rule.degree + 1) + decay) + 2;
   }
 
-  /// The samples of the line as linear functions of themselves, smoothed: row i has the coefficients of sample i.
+  /// The smoothed samples of the line as linear functions of the samples: row i has the coefficients of smoothed
+  /// sample i.
   std::vector<FT> smoothed_unit_samples(const Spline_rule<FT>& rule) const {
     std::vector<FT> unit(nodes_ * nodes_);
     for (std::size_t i = 0; i < nodes_; ++i) unit[i * (nodes_ + 1)] = 1;
@@ -103,13 +104,13 @@ private:
     return smoothed;
   }
 
-  std::size_t cells_;                         // of the line itself
-  std::size_t nodes_;                         // of the line that represents it
-  std::vector<FT> coefficients_;              // row i is spline coefficient i as a function of the samples
+  std::size_t cells_;                         // of the line
+  std::size_t nodes_;                         // of the representative line
+  std::vector<FT> coefficients_;              // row i: spline coefficient i as a linear function of the samples
   std::array<std::vector<FT>, orders> basis_; // Taylor coefficients of the B-splines in the middle of a cell
 };
 
-/// A value for every cell of a line that is the same for all cells of a kind.
+/// One value for each cell of a line, which is the same for all cells of a kind.
 template <class T>
 class Per_kind_of_cell {
 public:
@@ -125,7 +126,7 @@ public:
 
   std::size_t kind(std::size_t cell) const { return kinds_(cell); }
 
-  /// The kind of the cells between the borders. It is also its representative.
+  /// The kind of the cells between the borders, and also its representative.
   std::size_t inner_kind() const { return kinds_.kinds / 2; }
 
   /// The offset of a cell from the representative cell of its kind.

@@ -29,28 +29,28 @@
 
 namespace equiaffine::internal {
 
-/// How samples become coefficients: the degree of the spline, the scheme, and the degree of the polynomials that extend
-/// the samples beyond the border (Volume_survey.h).
+/// How samples become coefficients: the degree of the spline, the scheme, and the degree of the polynomials that
+/// extend the samples beyond the border (Volume_survey.h).
 struct Spline_fit {
   int degree;
   Spline_scheme scheme;
   int border_degree;
 
-  /// Calls f(filter) with the filter of lines that turns samples into coefficients.
+  /// Calls f(filter) with the filter that turns a line of samples into coefficients.
   template <class FT, class F>
   void with_filter(const F& f) const {
     with_degree(degree, [&](auto n) { with_line_filter<FT, n>(scheme, border_degree, f); });
   }
 };
 
-/// The coefficients of a tensor product spline that a block of cells needs, (n + 1)^3 for each cell. Coefficients are
-/// counted from the first one before the border of the lattice: those of cell i along an axis are i to i + n.
+/// The coefficients of a tensor product spline in a block of cells, (n + 1)^3 for each cell. Coefficient 0 is the
+/// first one beyond the border of the lattice: cell i has the coefficients i to i + n along an axis.
 template <class FT>
 class Spline_coefficients {
 public:
   using Size = std::array<std::size_t, 3>;
 
-  /// Computes the coefficients of all cells of a volume, in threads.
+  /// Computes the coefficients of all cells of a volume in parallel.
   template <class ConcurrencyTag, class Kernel>
   static Spline_coefficients of_all_cells(const Volume_view_3<Kernel>& volume, const Spline_fit& fit) {
     const Size& nodes = volume.lattice().size();
@@ -65,8 +65,8 @@ public:
     return result;
   }
 
-  /// Computes the coefficients of a block of cells from the samples that they depend on. They have the same bits as if
-  /// all were computed. \pre the scheme is not interpolation, whose coefficients depend on all samples
+  /// Computes the coefficients of a block of cells from the samples on which they depend, with the same bits as
+  /// of_all_cells(). \pre the scheme is not interpolation, whose coefficients depend on all samples
   template <class Kernel>
   static Spline_coefficients of_cells(const Volume_view_3<Kernel>& volume, const Spline_fit& fit,
                                       const Cell_block& cells) {
@@ -78,14 +78,14 @@ public:
     return result;
   }
 
-  /// The cells whose coefficients depend on samples that are known alone: all, unless a part of the volume is not.
-  /// \throw std::invalid_argument if there are none
+  /// The cells whose coefficients depend only on known samples: all cells if the whole volume is known. \throw
+  /// std::invalid_argument if there are none
   template <class Kernel>
   static Cell_block computable_cells(const Volume_view_3<Kernel>& volume, const Spline_fit& fit) {
     if (!volume.is_part()) return volume.cells();
     check_argument(
         fit.scheme != Spline_scheme::INTERPOLATION,
-        "spline interpolation needs all samples, and a part of them is not known: choose quasi-interpolation");
+        "spline interpolation needs all samples of a volume, but some are unknown: choose quasi-interpolation");
     Cell_block cells = volume.cells();
     fit.with_filter<FT>([&](const auto& line) {
       if constexpr (requires { line.samples_of({}, 0); })
@@ -99,7 +99,8 @@ public:
           auto &first = cells.first[a], &end = cells.end[a];
           while (first < end && !is_computable(first)) ++first;
           while (first < end && !is_computable(end - 1)) --end;
-          check_argument(first < end, "less samples are known than a spline in a cell needs: let more be known");
+          check_argument(first < end, "too few samples of a volume for a spline in a cell: provide more of them, see "
+                                      "cells_to_know()");
         }
     });
     return cells;
@@ -110,7 +111,7 @@ public:
   const FT* data() const { return values_.get(); }
   const Size& size() const { return size_; }
 
-  /// The expansion in lattice coordinates at a place of a cell of the block.
+  /// The expansion in lattice coordinates at an offset in a cell of the block.
   template <int Order>
   Jet_3<FT, Order> expansion(const Size& cell, const std::array<FT, 3>& offset) const {
     Jet_3<FT, Order> jet;
@@ -121,7 +122,7 @@ public:
     return jet;
   }
 
-  /// The greatest magnitude of the coefficients of a cell of the block.
+  /// The maximum magnitude of the coefficients of a cell of the block.
   FT greatest(const Size& cell) const {
     const std::size_t i = cell[0] - cells_.first[0], j = cell[1] - cells_.first[1], k = cell[2] - cells_.first[2];
     const auto taps = std::size_t(degree_) + 1;
@@ -134,7 +135,7 @@ public:
     return result;
   }
 
-  /// An expansion that is linear in each coordinate between the expansions at the corners of the cell.
+  /// The trilinear interpolation of the expansions at the corners of a cell.
   template <int Order>
   Jet_3<FT, Order> interpolated_expansion(const Size& cell, const std::array<FT, 3>& offset) const {
     Jet_3<FT, Order> sum(FT(0));
@@ -160,13 +161,13 @@ private:
     advise_large_pages(values_.get(), count * sizeof(FT));
   }
 
-  /// Numbers that will be written before they are read.
+  /// Uninitialized numbers.
   static std::unique_ptr<FT[]> numbers(std::size_t count) { return std::unique_ptr<FT[]>(new FT[count]); }
 
-  /// The part of the coefficients of all cells along an axis.
+  /// The range of the block's coefficients along an axis.
   Line_part part(std::size_t axis) const { return {cells_.first[axis], cells_.first[axis] + size_[axis]}; }
 
-  /// Filters the samples around the block along x and y, plane by plane, then all planes along z.
+  /// Filters the samples around the block along x and y plane by plane, then all planes along z.
   template <class Filter, class Kernel>
   void filter(const Filter& line, const Volume_view_3<Kernel>& volume) {
     const Size& nodes = volume.lattice().size();
@@ -191,7 +192,7 @@ private:
     line.apply_to_part(along_y.get(), z, nodes[2], slab, part(2), values_.get(), slab);
   }
 
-  /// Makes numbers that are not finite NaN: an infinity could pass as a value.
+  /// Replaces infinities by NaN: an infinity could pass as a value.
   void remove_infinities(std::size_t first, std::size_t count) {
     for (FT& x : std::span(&values_[first], count))
       if (!std::isfinite(x)) x = std::numeric_limits<FT>::quiet_NaN();
@@ -203,9 +204,8 @@ private:
   std::unique_ptr<FT[]> values_;
 };
 
-/// A volume as the source of spline coefficients: those of all its cells, which are computed when they are first asked
-/// for, or those of a block of cells alone. Of a part of a volume, all cells are those whose coefficients it
-/// determines.
+/// Computes the spline coefficients of a volume: those of all its cells on first use, or those of a block of cells.
+/// For a part of a volume, all cells are those whose coefficients the part determines.
 template <class Kernel>
 class Coefficient_source {
 public:
@@ -218,7 +218,7 @@ public:
 
   const Cell_block& cells() const { return cells_; } ///< all cells
 
-  /// The coefficients of all cells. It may be called from many threads at once.
+  /// The coefficients of all cells. Thread-safe.
   const Coefficients& all() const {
     if (const Coefficients* const computed = all_if_computed()) return *computed;
     const std::lock_guard lock(mutex_);
@@ -233,7 +233,7 @@ public:
     return is_computed_.load(std::memory_order_acquire) ? &*coefficients_ : nullptr;
   }
 
-  /// The coefficients of a block of cells alone, which must be among all cells.
+  /// The coefficients of a block of cells(). \pre the block lies in cells()
   Coefficients of_cells(const Cell_block& cells) const { return Coefficients::of_cells(volume_, fit_, cells); }
 
 private:

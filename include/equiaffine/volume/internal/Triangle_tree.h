@@ -15,11 +15,10 @@
 
 namespace equiaffine {
 
-/// The kernel in which distances are computed. They are rounded in every kernel of floating-point numbers, and this one
-/// is faster.
+/// The kernel in which distances are computed. Every floating-point kernel rounds them; this one is faster.
 using Distance_kernel = CGAL::Simple_cartesian<double>;
 
-/// The point of a triangle nearest to p, one of the triangle in spite of rounding. Source: C. Ericson, Real-Time
+/// The point of a triangle nearest to p. It lies in the triangle up to rounding. Source: C. Ericson, Real-Time
 /// Collision Detection, 2005, section 5.1.5.
 inline Distance_kernel::Point_3 nearest_point(const Distance_kernel::Triangle_3& triangle,
                                               const Distance_kernel::Point_3& p) {
@@ -41,21 +40,21 @@ inline Distance_kernel::Point_3 nearest_point(const Distance_kernel::Triangle_3&
   return a + (weight_b / sum * ab + weight_c / sum * ac);
 }
 
-/// A half-space given from a point c: no point x is nearer to it than distance + direction * (x - c).
+/// A half-space relative to a point c: every point x has at least the distance `distance + direction * (x - c)` to
+/// it.
 struct Half_space {
   Distance_kernel::Vector_3 direction;
   double distance;
 };
 
-/// Triangles in a binary tree of boxes, halved by the median along the longest side. A part of it is a triangle or a
-/// box, the root being part 0. Boxes are wider than what they hold by the `slack`, which is at least what points are
-/// displaced by rounding.
+/// A binary tree of boxes of triangles, split at the median along the longest side. A part is a box or a triangle;
+/// the root is part 0. Boxes are enlarged by `slack`, which bounds the displacement of points by rounding.
 class Triangle_tree {
 public:
   using Point_3 = Distance_kernel::Point_3;
   using Vector_3 = Distance_kernel::Vector_3;
   using Triangle_3 = Distance_kernel::Triangle_3;
-  using Part = std::ptrdiff_t; ///< a box from 0 on, or ~t for the triangle t
+  using Part = std::ptrdiff_t; ///< a box if not negative, or ~t for the triangle t
 
   Triangle_tree(std::vector<Triangle_3> triangles, double slack) : triangles_(std::move(triangles)), slack_(slack) {
     boxes_.reserve(triangles_.size());
@@ -66,7 +65,7 @@ public:
   static bool is_triangle(Part part) { return part < 0; }
   const Triangle_3& triangle(Part part) const { return triangles_[std::size_t(~part)]; }
   const std::array<Part, 2>& children(Part box) const { return boxes_[std::size_t(box)].children; }
-  /// Half the diagonal of a box; 0 for a triangle, which has no children.
+  /// Half the diagonal of a box; 0 for a triangle.
   double radius(Part part) const { return is_triangle(part) ? 0 : boxes_[std::size_t(part)].radius; }
 
   Point_3 nearest_point(Part part, const Point_3& p) const {
@@ -76,8 +75,8 @@ public:
             std::clamp(p.z(), lower[2], upper[2])};
   }
 
-  /// A half-space that holds the part and whose border is about as far from p as the part is. Of triangles it takes the
-  /// vertices, so that it holds them however the nearest point is rounded.
+  /// A half-space that contains the part and is about as far from p as the part. For a triangle it is computed from
+  /// the vertices, so that it contains them however the nearest point is rounded.
   Half_space half_space(Part part, const Point_3& p) const {
     const Vector_3 v = p - nearest_point(part, p);
     const double length = std::sqrt(v.squared_length());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cardinal B-splines, and the filters of lines that make their coefficients of samples.
+// Cardinal B-splines, and the filters that compute their coefficients from a line of samples.
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_H
 #define EQUIAFFINE_VOLUME_INTERNAL_BSPLINE_H
 
@@ -15,7 +15,7 @@
 
 namespace equiaffine::internal {
 
-/// A pack has as many numbers as one register of the target holds, by the vector extension that g++ and clang share.
+/// A pack of the numbers that fill a register of the target, in the vector extension that g++ and clang share.
 template <class FT>
 struct Spline_pack {
 #if defined(__AVX512F__)
@@ -35,26 +35,27 @@ struct Spline_pack {
   }
   static void store(const type& pack, FT* to) { std::memcpy(to, &pack, sizeof pack); }
 
-  /// The least multiple of `lanes` that is >= n.
+  /// The smallest multiple of `lanes` that is at least n.
   static constexpr int round_up(int n) { return (n + lanes - 1) / lanes * lanes; }
 };
 
-/// The number of entries beyond the last coefficient that an evaluation may read, whose values have no influence. It is
-/// the size of the largest pack of any target.
+/// The number of entries past the last coefficient that an evaluation may read without using their values: the size
+/// of the largest pack of any target.
 inline constexpr std::size_t overread = 16;
 
-// Centered cardinal B-splines of odd degree n in one variable: their polynomials on a cell, and the local filters that
-// turn samples at the integers into spline coefficients. Lengths are in steps of the grid.
+// Centered cardinal B-splines of odd degree n in one variable: their polynomials on a cell, and the local filters
+// that turn samples at the integers into spline coefficients. Lengths are in steps of the grid.
 
-/// The number of coefficients beyond each border of the samples: with floor(n / 2), every cell has n + 1 coefficients.
+/// The number of coefficients beyond each border of the samples. With floor(n / 2), every cell has n + 1
+/// coefficients.
 constexpr int spline_padding(int degree) { return degree / 2; }
 
 /// The n + 1 B-splines that do not vanish on the cell [0, 1], as polynomials in s = t - 1/2: `basis[p][r]` is the
-/// coefficient of s^p in the B-spline centered at r - floor(n / 2). Rows have `Width` >= n + 1 entries, the last ones
-/// zero.
+/// coefficient of s^p in the B-spline centered at r - floor(n / 2). Rows have `Width` >= n + 1 entries, padded with
+/// zeros.
 ///
-/// The recursion of Cox and de Boor in the variable 2s has integer coefficients, so every entry is rounded once. Powers
-/// of s are used rather than of t, since they are at most 2^-p: Horner's scheme loses nothing at the end of the cell.
+/// The Cox-de Boor recursion in the variable 2s has integer coefficients, so every entry is rounded once. Powers of
+/// s, rather than of t, are at most 2^-p, so that Horner's scheme loses no accuracy at the end of the cell.
 template <class FT, int Degree, int Width>
 constexpr auto bspline_basis_polynomials() {
   static_assert(Degree % 2 == 1 && Degree <= 9 && Width > Degree);
@@ -76,20 +77,20 @@ constexpr auto bspline_basis_polynomials() {
   return basis;
 }
 
-/// The greatest degree of the polynomials that extend samples beyond a border.
+/// The maximum degree of the polynomials that extend samples beyond a border.
 inline constexpr int greatest_border_degree = 9;
 
 /// A local linear map from the samples f_0 .. f_{N-1} of a line to coefficients c_{-m} .. c_{N-1+m}, m = floor(n / 2).
 ///
 /// Inside, c_i = sum_s weights[|s|] f_{i+s}, |s| <= radius. Near a border the missing samples are those of the
-/// polynomial of degree d >= n through the d + 1 samples nearest to that border; as this is linear in them,
-/// c_i = sum_j border[m + i][j] f_j for i < radius, and the mirror image at the other end. Polynomials of degree n
-/// are hence treated at the border as they are inside, which keeps the order of every derivative. For
-/// quasi-interpolation d may be min(n + 2, 9, N - 1): with d = n, where a wave has 24 samples, the errors of affine
-/// curvatures in the border are a thousand times those inside. A larger d magnifies noise, and steps are no
-/// polynomials: they go on as constants (Volume_survey.h chooses). Other extensions lose the order: repeating or
-/// mirroring samples makes a kink at the border, zeros make a jump, so that the value has order 1 or 0 and fourth
-/// derivatives grow as h^-3 or h^-4. Giving the domain up as far as the coefficients reach costs n - 1 cells per axis.
+/// polynomial of degree d >= n through the d + 1 samples nearest to that border. This is linear in the samples: c_i =
+/// sum_j border[m + i][j] f_j for i < radius, and the mirror image at the other end. Polynomials of degree n are
+/// hence treated at the border as inside, which keeps the order of every derivative. For quasi-interpolation, d may
+/// be min(n + 2, 9, N - 1): with d = n, the errors of affine curvatures at the border are a thousand times those
+/// inside for a wave of 24 samples. A larger d magnifies noise. Steps are not polynomials and are extended by
+/// constants (Volume_survey.h chooses). Other extensions lose the order: repeating or mirroring samples causes a kink
+/// at the border and zeros cause a jump, so that the value has order 1 or 0 and fourth derivatives grow as h^-3 or
+/// h^-4. Excluding the cells whose coefficients reach beyond the border would cost n - 1 cells per axis.
 template <class FT, int Degree>
 struct Line_filter {
   static constexpr int padding = spline_padding(Degree);
@@ -99,19 +100,20 @@ struct Line_filter {
   int border_degree = Degree; ///< d in lines of more than d nodes
   Border border{};            ///< the weights at the border for this d
 
-  /// The filter with coefficients = samples. The spline of a polynomial p is p smoothed by the B-spline: order 2.
+  /// The filter with coefficients = samples. The spline of a polynomial p is the convolution of p with the B-spline:
+  /// order 2.
   static constexpr Line_filter convolution() {
     Line_filter filter;
     filter.border = filter.border_weights(Degree);
     return filter;
   }
 
-  /// The local quasi-interpolation of order n + 1, which reproduces polynomials of degree <= n.
+  /// Local quasi-interpolation of order n + 1, which reproduces polynomials of degree <= n.
   ///
-  /// On these polynomials the sum over the grid acts as the convolution with the B-spline (Strang and Fix 1971), which
-  /// is the operator (sinh(D/2) / (D/2))^(n+1). In terms of the central difference delta = 2 sinh(D/2) the inverse is
-  /// (arcsinh(delta/2) / (delta/2))^(n+1), an even power series in delta that is cut after delta^(2m): the next term
-  /// annihilates polynomials of degree n.
+  /// On these polynomials, the sum over the grid is the convolution with the B-spline (Strang and Fix 1971), that is,
+  /// the operator (sinh(D/2) / (D/2))^(n+1). In terms of the central difference delta = 2 sinh(D/2), its inverse is
+  /// (arcsinh(delta/2) / (delta/2))^(n+1), an even power series in delta. It is truncated after delta^(2m), because
+  /// the next term annihilates polynomials of degree n.
   static constexpr Line_filter quasi_interpolation(int border_degree) {
     Line_filter filter;
     filter.radius = padding;
@@ -121,7 +123,7 @@ struct Line_filter {
     return filter;
   }
 
-  /// The same with the samples at the ends in place of those beyond the border.
+  /// The same with the end samples repeated beyond the border.
   static constexpr Line_filter quasi_interpolation_of_steps() {
     Line_filter filter = quasi_interpolation(Degree);
     filter.border = {};
@@ -138,8 +140,8 @@ struct Line_filter {
     apply_to_part(samples, {0, count}, count, width, {0, count + 2 * std::size_t(padding)}, coefficients, stride);
   }
 
-  /// The samples of a line of `count` that a part of its coefficients depends on. Here and in apply_to_part()
-  /// coefficients are counted from the first one, c_{-m}.
+  /// The samples on which a part of the coefficients depends, in a line of `count` samples. Here and in
+  /// apply_to_part(), index 0 is the first coefficient, c_{-m}.
   Line_part samples_of(const Line_part& part, std::size_t count) const {
     const auto r = std::size_t(radius), m = std::size_t(padding);
     const std::size_t used = std::min(count, std::size_t(border_degree) + 1); // by each coefficient at a border
@@ -150,9 +152,8 @@ struct Line_filter {
     return samples;
   }
 
-  /// Does a part of the work of apply(): `samples` begins with the given part of the samples, which has those that
-  /// samples_of() says, and `coefficients` with the part of the coefficients that is computed. These have the same bits
-  /// whatever the part is.
+  /// Does a part of apply(): `samples` points to the first of the `given` samples, which include samples_of(part),
+  /// and `coefficients` to the first coefficient of the part. The coefficients have the same bits for every part.
   void apply_to_part(const FT* samples, const Line_part& given, std::size_t count, std::size_t width,
                      const Line_part& part, FT* coefficients, std::size_t stride) const {
     if (count > std::size_t(border_degree))
@@ -164,7 +165,7 @@ struct Line_filter {
     if (first >= end) return;
     const FT* const center = samples + (first - std::size_t(padding) - given.first) * width;
     FT* const row = coefficients + (first - part.first) * stride;
-    const bool is_packed = stride == width; // then all rows are one
+    const bool is_packed = stride == width; // then all rows are contiguous
     const std::size_t rows = is_packed ? 1 : end - first, length = is_packed ? (end - first) * width : width;
     for (std::size_t i = 0; i < rows; ++i)
       if (radius == 0) combine<0>(center + i * width, width, length, row + i * stride);
@@ -175,7 +176,7 @@ private:
   using Pack = Spline_pack<FT>;
   using Weights = std::array<FT, padding + 1>;
 
-  /// The coefficients of the series (arcsinh(delta/2) / (delta/2))^(n+1) in powers of delta^2.
+  /// The coefficients of the power series (arcsinh(delta/2) / (delta/2))^(n+1) in delta^2.
   static constexpr Weights inverse_of_smoothing() {
     Weights series{FT(1)};
     Weights arcsinh{FT(1)};
@@ -206,10 +207,10 @@ private:
     return weights;
   }
 
-  /// Writes the sums of `length` numbers and of those that lie up to `Reach` times `width` before and behind them.
+  /// Writes `length` weighted sums of each number and those up to `Reach` times `width` before and after it.
   template <int Reach>
   void combine(const FT* center, std::size_t width, std::size_t length, FT* sums) const {
-    const Weights w = weights; // a copy, which the sums cannot overlap
+    const Weights w = weights; // a local copy, which the sums cannot alias
     std::size_t x = 0;
     for (; x + std::size_t(Pack::lanes) <= length; x += std::size_t(Pack::lanes)) {
       typename Pack::type sum = w[0] * Pack::load(center + x);
@@ -226,7 +227,7 @@ private:
     }
   }
 
-  /// The coefficients of a part of the line that are at and beyond its borders.
+  /// Computes the coefficients at and beyond the borders, in a part of the line.
   void apply_border(const Border& at_border, const FT* samples, const Line_part& given, std::size_t count,
                     std::size_t width, const Line_part& part, FT* coefficients, std::size_t stride) const {
     const std::size_t rows = std::size_t(radius) + std::size_t(padding);
@@ -235,7 +236,7 @@ private:
     const auto sum_up = [&](std::size_t coefficient, std::size_t end, const auto& sample) {
       if (coefficient < part.first || coefficient >= part.end) return;
       FT* const row = coefficients + (coefficient - part.first) * stride;
-      const auto weights_of_end = at_border[end]; // a copy, which the sums cannot overlap
+      const auto weights_of_end = at_border[end]; // a local copy, which the sums cannot alias
       const auto from = [&](std::size_t j) { return samples + (sample(j) - given.first) * width; };
       std::size_t x = 0;
       for (; x + std::size_t(Pack::lanes) <= width; x += std::size_t(Pack::lanes)) {
@@ -256,7 +257,7 @@ private:
   }
 
   /// The weight of f_j in the value at the integer x of the polynomial through f_0 .. f_d (Lagrange). Numerator and
-  /// denominator are exact, being products of integers.
+  /// denominator are products of integers and exact.
   static constexpr FT lagrange(int d, int j, int x) {
     FT numerator = 1;
     FT denominator = 1;
@@ -268,7 +269,7 @@ private:
     return numerator / denominator;
   }
 
-  /// The weights of the samples in the coefficients at a border, by the polynomial of degree d.
+  /// The weights of the samples in the coefficients at a border, for the polynomial of degree d.
   constexpr Border border_weights(int d) const {
     Border result{};
     for (int i = -padding; i < radius; ++i)
@@ -296,15 +297,15 @@ inline constexpr std::array<FT, 4> bspline_poles<FT, 9> = {
     FT(-0.607997389168625779007720823954289769), FT(-0.201750520193153238796064685055970435),
     FT(-0.0432226085404817521333211429794296883), FT(-0.00212130690318081842030489655784862342)};
 
-/// The recursive filter from the samples of a line to the coefficients of the spline of odd degree n that has them as
-/// values (Unser, Aldroubi, Eden: B-spline signal processing, 1993). As for Line_filter, the samples that are missing
-/// at a border are those of the polynomial of degree n through the nearest n + 1; the recursion starts with its exact
-/// sum for this polynomial, so that polynomials of degree n are reproduced to the border.
+/// The recursive filter from the samples of a line to the coefficients of the spline of odd degree n that
+/// interpolates them (Unser, Aldroubi, Eden: B-spline signal processing, 1993). As for Line_filter, the missing
+/// samples at a border are those of the polynomial of degree n through the nearest n + 1 samples. The recursion
+/// starts with its exact sum for this polynomial, so that polynomials of degree n are reproduced up to the border.
 template <class FT, int Degree>
 struct Interpolation_filter {
   static constexpr int padding = spline_padding(Degree);
 
-  /// Filters a line as Line_filter::apply does.
+  /// Filters a line, see Line_filter::apply.
   void apply(const FT* samples, std::size_t count, std::size_t width, FT* coefficients, std::size_t stride) const {
     static constexpr auto extension = Line_filter<FT, Degree>::convolution();
     extension.apply(samples, count, width, coefficients, stride);
@@ -316,8 +317,8 @@ struct Interpolation_filter {
   }
 
 private:
-  /// Runs y_i = (1 - z) x_i + z y_{i-1} in place over `rows` rows. The runs in both directions leave constants as they
-  /// are, and together they invert the factor with the roots z and 1 / z of the polynomial of `bspline_poles`.
+  /// Runs y_i = (1 - z) x_i + z y_{i-1} in place over `rows` rows. The runs in both directions preserve constants,
+  /// and together they invert the factor with the roots z and 1 / z of the polynomial of `bspline_poles`.
   static void run(FT* first, std::ptrdiff_t stride, std::size_t rows, std::size_t width, FT z) {
     const auto start = starting_weights(z);
     for (std::size_t x = 0; x < width; ++x) {
@@ -347,7 +348,7 @@ private:
   }
 };
 
-/// Calls f(filter) with the filter of a scheme. Only quasi-interpolation has a choice of the degree at the border.
+/// Calls f(filter) with the filter of a scheme. Only quasi-interpolation depends on the border degree.
 template <class FT, int Degree, class F>
 void with_line_filter(Spline_scheme scheme, int border_degree, F f) {
   using Filter = Line_filter<FT, Degree>;
@@ -372,9 +373,9 @@ auto with_degree(int degree, F f) {
 
 namespace equiaffine {
 
-/// The centered cardinal B-spline of odd degree n <= 9 at t. Its knots are the integers from -(n + 1) / 2 to
-/// (n + 1) / 2, beyond which it is 0; its shifts by integers sum to 1. It is evaluated by the polynomials on cells of
-/// which the splines of this library are made.
+/// The centered cardinal B-spline of odd degree n <= 9 at t. Its knots are the integers from -(n + 1) / 2 to (n + 1)
+/// / 2, and it is 0 outside; its integer shifts sum to 1. Evaluated by the cell polynomials that the splines of this
+/// library use.
 template <int Degree, class FT>
 FT bspline(FT t) {
   static constexpr auto basis = internal::bspline_basis_polynomials<FT, Degree, Degree + 1>();

@@ -14,15 +14,15 @@
 
 namespace equiaffine::internal {
 
-/// Collects the least and the greatest of many numbers, a pack at a time. A NaN among them changes neither and is
-/// remembered; infinities are not expected.
+/// Tracks the minimum and the maximum of a sequence of numbers, a pack at a time. A NaN changes neither but is
+/// recorded. Precondition: no number is infinite.
 template <class FT>
 class Range {
   using Lanes = Spline_pack<FT>;
 
 public:
-  /// Adds `count` numbers. `number(load)` computes the next one, or the next pack of them, from what `load(p)` returns
-  /// for pointers p to the operands of the first.
+  /// Adds `count` numbers. `number(load)` computes the next number, or the next pack of numbers, from what `load(p)`
+  /// returns for pointers p to the operands of the first one.
   template <class F>
   void add(std::size_t count, const F& number) {
     std::size_t x = 0;
@@ -58,7 +58,7 @@ public:
     return zero_or_nan != 0;
   }
 
-  /// An interval that contains all numbers even if each is wrong by `error`.
+  /// An interval that contains all numbers even if each has an error of up to `error`.
   Interval widened(FT error) const {
     return Interval::widened(double(least()) - double(error), double(greatest()) + double(error));
   }
@@ -66,14 +66,14 @@ public:
 private:
   using Pack = typename Lanes::type;
 
-  // The numbers that fill whole packs are collected per lane, the rest of each call one by one.
+  // The numbers that fill whole packs are tracked per lane, the remaining ones of each call one by one.
   FT least_of_rest_ = std::numeric_limits<FT>::infinity(), greatest_of_rest_ = -least_of_rest_,
      zero_or_nan_of_rest_ = 0;
   Pack least_of_lanes_ = least_of_rest_ - Pack{}, greatest_of_lanes_ = -least_of_lanes_, zero_or_nan_of_lanes_ = {};
 };
 
-/// A box of the lattice: the cells that it meets, and where it begins in the first and ends in the last cell of each
-/// axis, in [0, 1].
+/// A box of the lattice: the cells that it meets, and its begin in the first cell and its end in the last cell along
+/// each axis, in [0, 1].
 template <class FT>
 struct Bspline_box {
   std::array<FT, 3> begin, end;
@@ -83,15 +83,15 @@ struct Bspline_box {
   bool has_at_most(std::size_t count) const { return *std::max_element(cells.begin(), cells.end()) <= count; }
 };
 
-/// The spline restricted to a box: its coefficients over knots that end at the sides of the box.
+/// The spline restricted to a box: its coefficients for knots that end at the sides of the box.
 ///
 /// These coefficients are values of the spline's blossom (polar form) at arguments inside the box. Hence their range
-/// exceeds that of the values by the square of the side only, and coefficients beyond the border of the lattice, which
-/// extrapolation makes large, have no influence.
+/// exceeds that of the values only by the square of the side. Coefficients beyond the border of the lattice, which
+/// are large by extrapolation, have no influence.
 ///
 /// The sides t and s of the box are inserted as knots, n times each (Boehm: Inserting new knots into B-spline curves,
-/// 1980). Every step is a convex combination of two coefficients. For one axis, n = 3 and a box that meets the two
-/// cells [0, 1] and [1, 2]:
+/// 1980). Every step is a convex combination of two coefficients. For one axis, n = 3, and a box that meets the cells
+/// [0, 1] and [1, 2]:
 ///
 ///     knots           -2   -1    0 . t . 1 . s . 2    3    4
 ///                                   [---------]               the box
@@ -108,13 +108,13 @@ class Bspline_on_box {
 
 public:
   static constexpr std::size_t most_cells = 9;
-  /// The rounding error of a coefficient on the box, relative to the largest of those that it is made of, after 2n
-  /// steps per axis.
+  /// The rounding error of a coefficient on the box after 2n steps per axis, relative to the largest of the
+  /// coefficients that it is computed from.
   static constexpr FT relative_error = 3 * 2 * Degree * 8 * std::numeric_limits<FT>::epsilon();
 
-  /// `*c` is the first coefficient of the lattice that counts in the box, which has at most `most_cells` cells per
-  /// axis; coefficients are 1, `row` and `slab` apart along x, y and z. Where the box has less than 2^-12 of a cell, it
-  /// is taken as wide as that, which keeps the error of differences small.
+  /// `*c` is the first coefficient of the lattice that is relevant in the box, which has at most `most_cells` cells
+  /// per axis; coefficients are 1, `row` and `slab` apart along x, y, and z. A box with less than 2^-12 of a cell
+  /// along an axis is widened to that, which keeps the error of differences small.
   Bspline_on_box(const FT* c, std::size_t row, std::size_t slab, const Bspline_box<FT>& box) : cells_(box.cells) {
     constexpr FT thin = FT(1) / FT(1 << 12);
     for (std::size_t a = 0; a < 3; ++a) {
@@ -132,15 +132,15 @@ public:
     insert_sides(0, other, coefficients_);
   }
 
-  /// Contains the values, also as computed with an error of at most `error`.
+  /// Contains the values, also if they are computed with an error of up to `error`.
   Interval value(FT error) const {
     Range<FT> range;
     range.add(count_[0] * count_[1] * count_[2], [this](const auto& load) { return load(coefficients_.data()); });
     return range.widened(error);
   }
 
-  /// Contains the derivatives along axis a, in lattice coordinates, also as computed with an error of at most `error`
-  /// from coefficients on the box with errors of at most `error_of_coefficient`.
+  /// Contains the derivatives along axis a, in lattice coordinates, also if they are computed with an error of up to
+  /// `error` from coefficients on the box with errors of up to `error_of_coefficient`.
   Interval derivative(std::size_t a, FT error, FT error_of_coefficient) const {
     const std::array<std::size_t, 3> stride = {1, count_[0], count_[0] * count_[1]};
     const auto weights = difference_weights(a);
@@ -164,11 +164,12 @@ private:
   static constexpr std::size_t capacity =
       most_coefficients * most_coefficients * most_coefficients + std::size_t(Lanes::lanes);
   using Coefficients = std::array<FT, capacity>;
-  using Insertion_weights = std::array<Pack, std::size_t(Degree*(Degree + 1) / 2)>; // of a triangle, row by row
+  using Insertion_weights = std::array<Pack, std::size_t(Degree*(Degree + 1) / 2)>; // a triangle, row by row
 
-  /// The weights by which a knot is inserted n times in the first cell of a line, as in the figure. The k-th time,
-  /// k = 1 .. n, coefficient i exchanges its least argument, u = i + k - n, for the knot, by a convex combination with
-  /// coefficient i + 1, which has v = i + 1 instead. No knot lies beyond the end of the line, where v is cut off.
+  /// The weights by which a knot is inserted n times in the first cell of a line, as in the figure. In insertion k =
+  /// 1 .. n, coefficient i exchanges its smallest argument, u = i + k - n, for the knot, by a convex combination with
+  /// coefficient i + 1, which has v = i + 1 instead. There is no knot beyond the end of the line, so v is clamped to
+  /// it.
   static Insertion_weights insertion_weights(FT knot, FT end_of_line) {
     Insertion_weights weights;
     std::size_t n = 0;
@@ -180,7 +181,7 @@ private:
     return weights;
   }
 
-  /// Inserts a knot n times at one end of a pack of lines; `coefficient(i)` is the i-th one counted from that end.
+  /// Inserts a knot n times at one end of a pack of lines; `coefficient(i)` is the i-th coefficient from that end.
   template <class F>
   static void insert_knot(const Insertion_weights& weights, const F& coefficient) {
     std::array<Pack, Degree + 1> c;
@@ -193,7 +194,7 @@ private:
   }
 
   /// Inserts both sides of the box in the lines along `axis`. In `from` this axis is the slowest, so that neighboring
-  /// lines fill a pack; in `to` it is the fastest, and three calls bring the axes back into their order.
+  /// lines fill a pack; in `to` it is the fastest. Three calls restore the order of the axes.
   void insert_sides(std::size_t axis, Coefficients& from, Coefficients& to) const {
     const std::size_t count = count_[axis], lines = count_[(axis + 1) % 3] * count_[(axis + 2) % 3];
     const auto weights_of_begin = insertion_weights(begin_[axis], std::numeric_limits<FT>::infinity());
@@ -213,8 +214,8 @@ private:
     }
   }
 
-  /// The factors that turn differences of neighboring coefficients into coefficients of the derivative along axis a: n
-  /// over the distance from the least argument of the one to the greatest argument of the other.
+  /// The factors that turn differences of neighboring coefficients into coefficients of the derivative along axis a:
+  /// n over the distance from the smallest argument of one to the largest argument of the other.
   std::array<FT, most_coefficients> difference_weights(std::size_t a) const {
     const FT last = FT(cells_[a] - 1) + end_[a];
     std::array<FT, most_coefficients> weights{};
@@ -225,18 +226,18 @@ private:
     return weights;
   }
 
-  std::array<std::size_t, 3> cells_, count_; ///< of cells and of coefficients along each axis
+  std::array<std::size_t, 3> cells_, count_; ///< the number of cells and of coefficients along each axis
   std::array<FT, 3> begin_, end_;            ///< as in Bspline_box
   Coefficients coefficients_;
 };
 
-// Bounds of a tensor product spline and of its gradient on boxes come from its coefficients: B-splines are not negative
-// and sum to one, so values lie in the range of the coefficients that count in a box, and derivatives in the range of
-// differences of coefficients.
+// Bounds of a tensor product spline and of its gradient on boxes follow from its coefficients: B-splines are
+// nonnegative and sum to one, so values lie in the range of the coefficients that are relevant in a box, and
+// derivatives in the range of differences of coefficients.
 
-/// The rounding error of a value computed by `contract`, relative to the largest coefficient; that of a d-th derivative
-/// in lattice coordinates is at most (2n)^d times as large. The sum of the magnitudes of all terms is largest at |s| =
-/// 1/2, and each term has been rounded 3n + 1 times in Horner's scheme, n times in s and n + 2 times in the
+/// The rounding error of a value computed by `contract`, relative to the largest coefficient; that of a d-th
+/// derivative in lattice coordinates is at most (2n)^d times as large. The sum of the magnitudes of all terms is
+/// largest at |s| = 1/2. Each term is rounded 3n + 1 times in Horner's scheme, n times in s, and n + 2 times in the
 /// contraction, per axis.
 template <int Degree, class FT>
 constexpr FT relative_error_of_value() {
@@ -247,24 +248,24 @@ constexpr FT relative_error_of_value() {
   return FT(3 * (5 * Degree + 3)) * std::numeric_limits<FT>::epsilon() * sum * sum * sum;
 }
 
-/// The bounds of an empty set of values: infinity, which is never a value.
+/// The bounds of an empty set of values: infinity, which never is a value.
 inline Interval no_values() {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return Interval(infinity, infinity);
 }
 
-/// Bounds of a spline and of its gradient on boxes, in lattice coordinates. They contain the numbers as computed, too.
+/// Bounds of a spline and of its gradient on boxes, in lattice coordinates. They also contain the computed numbers.
 template <class FT>
 class Bspline_bounds {
 public:
   using Box = Bspline_box<FT>;
 
-  /// Prepares for a spline with `size` coefficients along each axis. Rounding may move a point by `slack` along each
-  /// axis before the spline is evaluated there.
+  /// For a spline with `size` coefficients along each axis. Rounding may move a point by `slack` along each axis
+  /// before the spline is evaluated there.
   Bspline_bounds(int degree, const std::array<std::size_t, 3>& size, const std::array<FT, 3>& slack)
       : degree_(degree), size_(size) {
     with_degree(degree, [this](auto n) { relative_error_ = relative_error_of_value<n, FT>(); });
-    for (const FT s : slack) slack_ += 2 * s; // the point and the box are rounded
+    for (const FT s : slack) slack_ += 2 * s; // both the point and the box are rounded
   }
 
   /// Returns an interval that contains the values at those points of the box that have one.
@@ -309,15 +310,15 @@ private:
 
   static constexpr std::size_t most_cells = Bspline_on_box<5, FT>::most_cells;
 
-  /// The number of coefficients along each axis that count somewhere in the box.
+  /// The number of coefficients along each axis that are relevant in the box.
   Size count_of(const Box& box) const {
     Size count = box.cells;
     for (std::size_t& n : count) n += std::size_t(degree_);
     return count;
   }
 
-  /// The range of what `number(load, p)` computes for each coefficient `*p` in a block of `count` along each axis that
-  /// begins at `first`; see Range::add for `load`.
+  /// The range of `number(load, p)` over the coefficients `*p` in a block of `count` along each axis that begins at
+  /// `first`; see Range::add for `load`.
   template <class F>
   Range<FT> range_of(const FT* c, const Size& first, const Size& count, const F& number) const {
     Range<FT> range;
@@ -334,14 +335,14 @@ private:
     return range_of(c, first, count, [](const auto& load, const FT* p) { return load(p); });
   }
 
-  /// The error of a value by rounding of terms and of the point; differences of coefficients bound the slope.
+  /// The error of a value by rounding of terms and of the point. Differences of coefficients bound the slope.
   FT error_of_value(const Range<FT>& range) const {
     return range.is_empty()
                ? FT(0)
                : relative_error_ * range.greatest_magnitude() + slack_ * (range.greatest() - range.least());
   }
 
-  /// The range of the differences of neighbors along the axis a.
+  /// The range of the differences of neighbors along axis a.
   Range<FT> differences(const FT* c, const Box& box, std::size_t a) const {
     const std::size_t stride = a == 0 ? 1 : a == 1 ? size_[0] : size_[0] * size_[1];
     Size count = count_of(box);
@@ -350,7 +351,7 @@ private:
                     [stride](const auto& load, const FT* p) { return load(p + stride) - load(p); });
   }
 
-  /// f(the spline restricted to the box).
+  /// Returns f(the spline restricted to the box).
   template <class F>
   auto on_box(const FT* c, const Box& box, const F& f) const {
     const FT* const first = c + (box.first[2] * size_[1] + box.first[1]) * size_[0] + box.first[0];
@@ -358,7 +359,7 @@ private:
                        [&](auto n) { return f(Bspline_on_box<n, FT>(first, size_[0], size_[0] * size_[1], box)); });
   }
 
-  /// Whether no point of the box has a value: a coefficient that counts everywhere in the box is NaN.
+  /// Whether no point of the box has a value, because a coefficient that is relevant everywhere in the box is NaN.
   bool has_no_values(const FT* c, const Box& box) const {
     Size first, count;
     for (std::size_t a = 0; a < 3; ++a) {

@@ -11,7 +11,7 @@
 
 namespace equiaffine::internal {
 
-/// Calls f(0), ..., f(N - 1) with constant arguments, so that arrays indexed by them live in registers.
+/// Calls f(0), ..., f(N - 1) with constant arguments, so that arrays indexed by them stay in registers.
 template <int N, class F>
 void unrolled(F f) {
   [&]<int... I>(std::integer_sequence<int, I...>) { (f(std::integral_constant<int, I>()), ...); }
@@ -40,11 +40,11 @@ struct Bspline_taylor {
   }
 };
 
-/// The contraction of the coefficients of a cell with the B-splines' Taylor coefficients, one axis after the other:
+/// The contraction of the coefficients of a cell with the Taylor coefficients of the B-splines, one axis at a time:
 /// along z for every order k, then along y for orders j + k <= Order, then along x for i + j + k <= Order.
 ///
-/// The first two passes have neighbors along x in the lanes of a pack, so that coefficients are read once and whole
-/// rows at a time; the last one has the orders i in the lanes.
+/// The first two passes have neighbors along x in the lanes of a pack, so that coefficients are read once and in
+/// whole rows; the last pass has the orders i in the lanes.
 template <int Degree, int Order, class FT>
 struct Cell_contraction {
   using Lanes = Spline_pack<FT>;
@@ -55,7 +55,7 @@ struct Cell_contraction {
   using Columns = Pack[orders][taps];      ///< [k][y]
   using Lines = FT[orders][orders][width]; ///< [k][j][x]
 
-  /// Sums along z of a pack of columns whose first coefficients are at `c`, `c + row`, ..., for each y.
+  /// Sums along z of a pack of columns whose first coefficients are at `c`, `c + row`, ..., one for each y.
   static void along_z(const FT* c, std::size_t row, std::size_t slab, const Taylor& bz, Columns& columns) {
     for (int y = 0; y < taps; ++y) {
       Pack sum[orders] = {};
@@ -67,7 +67,7 @@ struct Cell_contraction {
     }
   }
 
-  /// Sums along y; they become the pack of `lines` that begins at x.
+  /// Sums along y, which are stored in `lines` from x on.
   static void along_y(const Columns& columns, const Taylor& by, Lines& lines, int x) {
     unrolled<orders>([&](auto k) {
       Pack sum[orders - k] = {};
@@ -95,7 +95,7 @@ struct Cell_contraction {
   }
 };
 
-/// The same contraction in loops, which compile in a fraction of the time, for orders that few points need.
+/// The same contraction in loops, which compile much faster, for orders that few points need.
 template <int Degree, int Order, class FT>
 void contract_in_loops(const FT* c, std::size_t row, std::size_t slab, const std::array<FT, 3>& t,
                        std::array<FT, std::size_t(number_of_monomials(Order))>& taylor) {
@@ -115,8 +115,9 @@ void contract_in_loops(const FT* c, std::size_t row, std::size_t slab, const std
     }
 }
 
-/// Taylor coefficients of total order <= `Order` of the tensor product spline, in lattice coordinates, at the offset t
-/// in [0, 1]^3 of a cell. Its (n + 1)^3 coefficients begin at `*c` and are 1, `row` and `slab` apart along x, y and z.
+/// Taylor coefficients of total order <= `Order` of the tensor product spline, in lattice coordinates, at the offset
+/// t in [0, 1]^3 of a cell. Its (n + 1)^3 coefficients begin at `*c` and are 1, `row` and `slab` apart along x, y,
+/// and z.
 template <int Degree, int Order, class FT>
 void contract(const FT* c, std::size_t row, std::size_t slab, const std::array<FT, 3>& t,
               std::array<FT, std::size_t(number_of_monomials(Order))>& taylor) {

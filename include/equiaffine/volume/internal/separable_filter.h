@@ -12,9 +12,8 @@
 
 namespace equiaffine::internal {
 
-/// Applies a filter of lines along each axis of size[0] x size[1] x size[2] samples, which are those of a volume that
-/// are known; Line_filter::apply is an example.
-/// The result, `to`, has `padding` more nodes at each end of each axis.
+/// Applies a filter of lines, such as Line_filter::apply, along each axis of the size[0] x size[1] x size[2] known
+/// samples of a volume. The result `to` has `padding` additional nodes at each end of each axis.
 template <class ConcurrencyTag, class Kernel, class Filter>
 class Separable_filter {
 public:
@@ -45,7 +44,7 @@ public:
   }
 
 private:
-  /// Filters, across the rows, `count` rows that lie `stride` apart after `padding` empty ones.
+  /// Filters `count` rows across, which are `stride` apart after `padding` empty ones.
   void in_place(const Filter& filter, FT* rows, std::size_t count, std::size_t stride) const {
     std::vector<FT> samples(count * row_);
     for (std::size_t i = 0; i < count; ++i) std::copy_n(rows + (i + padding_) * stride, row_, &samples[i * row_]);

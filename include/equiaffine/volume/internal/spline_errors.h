@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How errors of samples change the derivatives of a spline: noise in them, and rounding.
+// The effects of noise in the samples and of rounding on the derivatives of a spline.
 #ifndef EQUIAFFINE_VOLUME_INTERNAL_SPLINE_ERRORS_H
 #define EQUIAFFINE_VOLUME_INTERNAL_SPLINE_ERRORS_H
 
@@ -23,7 +23,6 @@ namespace equiaffine::internal {
 template <class FT>
 using Noise_factor = std::array<std::array<FT, Line_functionals<FT>::orders>, Line_functionals<FT>::orders>;
 
-/// The sum of the products of two vectors.
 template <class FT>
 FT dot(const std::vector<FT>& a, const std::vector<FT>& b) {
   FT sum = 0;
@@ -31,8 +30,8 @@ FT dot(const std::vector<FT>& a, const std::vector<FT>& b) {
   return sum;
 }
 
-/// The factor for Taylor coefficients that are the linear functions `rows` of samples with independent errors of that
-/// standard deviation.
+/// The factor for Taylor coefficients that are the linear functions `rows` of samples with independent errors of the
+/// given standard deviation.
 template <class FT>
 Noise_factor<FT> noise_factor(const typename Line_functionals<FT>::Rows& rows, FT deviation) {
   constexpr std::size_t orders = Line_functionals<FT>::orders;
@@ -58,19 +57,19 @@ Per_kind_of_cell<Noise_factor<FT>> noise_factors(const Line_functionals<FT>& lin
 
 namespace equiaffine {
 
-/// Computes the effect of white noise of the samples on the expansions of a spline, as 35 independent disturbances of
-/// the expansion in the middle of a cell, one per Taylor coefficient. The sum of the disturbances, each multiplied by
-/// an independent normal variable, has the covariance that the noise gives the Taylor coefficients.
+/// The effect of white noise in the samples on the expansions of a spline, as 35 independent disturbances of the
+/// expansion in the middle of a cell, one per Taylor coefficient. The sum of the disturbances, each multiplied by an
+/// independent standard normal variable, has the covariance of the Taylor coefficients under the noise.
 ///
-/// The spline is a tensor product, and so is the covariance: the disturbances are the columns of its Cholesky factor,
+/// The spline is a tensor product, and so is the covariance. The disturbances are the columns of its Cholesky factor,
 /// which is the product of one factor of order 5 per axis. Cells of the same kind share them.
 template <class Kernel>
 class Spline_disturbances_3 {
 public:
   using FT = typename Kernel::FT;
 
-  /// The samples of the spline have been smoothed by the scale `smoothing`. Before that, they had noise with the given
-  /// standard deviation, in their unit.
+  /// The samples of the spline were smoothed by the scale `smoothing`. Before, their noise had the given standard
+  /// deviation, in their units.
   Spline_disturbances_3(const Spline_function_3<Kernel>& spline, const FT& smoothing, const FT& noise_deviation) {
     const internal::Spline_rule<FT> rule{spline.degree(), spline.scheme(), spline.border_degree(), smoothing};
     for (std::size_t a = 0; a < 3; ++a)
@@ -79,8 +78,8 @@ public:
             internal::noise_factors(internal::Line_functionals<FT>(nodes, rule), a == 0 ? noise_deviation : FT(1));
   }
 
-  /// The disturbance with the number (i, j, k), i + j + k <= 4, of an expansion in lattice coordinates; see
-  /// `Spline_function_3::cell_of` for the cell and `Spline_function_3::to_space`.
+  /// Disturbance (i, j, k), i + j + k <= 4, of an expansion in lattice coordinates; see `Spline_function_3::cell_of`
+  /// for the cell and `Spline_function_3::to_space`.
   Jet_3<FT> operator()(const std::array<std::size_t, 3>& cell, const std::array<int, 3>& column) const {
     std::array<const internal::Noise_factor<FT>*, 3> l;
     for (std::size_t a = 0; a < 3; ++a) l[a] = &factors_[a][cell[a]];
@@ -98,9 +97,9 @@ private:
   std::array<internal::Per_kind_of_cell<internal::Noise_factor<FT>>, 3> factors_;
 };
 
-/// Estimates from above how far rounding may change the second derivatives of a spline: two roundings of every term, as
-/// if all samples were as large as the largest one, and one of the samples to float if all are floats. The latter,
-/// which is the greater one by far, is that of samples as large as the coefficients of the cell unless they were
+/// Upper estimates of the effect of rounding on the second derivatives of a spline: two roundings of every term, as
+/// if all samples were as large as the largest one, and one rounding of the samples to float if all are floats. The
+/// latter dominates by far. It is computed for samples as large as the coefficients of the cell unless they were
 /// smoothed.
 template <class Kernel>
 class Spline_rounding_3 {
@@ -109,8 +108,8 @@ public:
   using Spline = Spline_function_3<Kernel>;
   using Cell = std::array<std::size_t, 3>;
 
-  /// `smoothing` is the scale by which the samples of the spline have been smoothed, `samples` says what they were
-  /// before.
+  /// `smoothing` is the scale by which the samples of the spline were smoothed; `samples` is the survey of the
+  /// unsmoothed samples.
   Spline_rounding_3(const Spline& spline, const FT& smoothing, const Volume_survey& samples)
       : to_lattice_(spline.to_lattice()),
         rounding_of_terms_(2 * std::numeric_limits<FT>::epsilon() * FT(samples.greatest)),
@@ -126,7 +125,7 @@ public:
     inside_ = errors({gains_[0].inner_kind(), gains_[1].inner_kind(), gains_[2].inner_kind()});
   }
 
-  /// The largest error of a second derivative in the coordinates of space, in the middle of a cell of the spline.
+  /// The maximum error of a second derivative in the coordinates of space, in the middle of a cell of the spline.
   FT operator()(const Spline& spline, const Cell& cell) const {
     Errors e = inside_;
     for (std::size_t a = 0; a < 3; ++a)
@@ -134,14 +133,14 @@ public:
         e = errors(cell);
         break;
       }
-    constexpr FT margin(2); // coefficients are less than the samples where these oscillate
+    constexpr FT margin(2); // coefficients are smaller than samples where these oscillate
     const FT greatest =
         is_local_ ? std::min(greatest_sample_, margin * spline.greatest_coefficient(cell)) : greatest_sample_;
     return e.terms + greatest * e.samples;
   }
 
 private:
-  /// The greatest errors of second derivatives by rounding of terms, and by that of samples of magnitude 1.
+  /// The maximum errors of second derivatives by rounding of terms, and by rounding of samples of magnitude 1.
   struct Errors {
     FT terms, samples;
   };
@@ -163,13 +162,13 @@ private:
     return greatest;
   }
 
-  /// The greatest change of the value and of the first two derivatives along one axis by errors of magnitude 1, of all
-  /// terms or of all samples.
+  /// The maximum change of the value and of the first two derivatives along one axis by errors of magnitude 1 in all
+  /// terms, or in all samples.
   struct Gains {
     std::array<FT, 3> terms, samples;
   };
 
-  /// The errors of the derivative along the axes a and b of the lattice.
+  /// The errors of the second derivative along the axes a and b of the lattice.
   Errors errors_in_lattice(std::size_t a, std::size_t b, const Cell& cell) const {
     FT terms = rounding_of_terms_, samples = rounding_of_samples_;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -193,8 +192,8 @@ private:
   }
 
   typename Spline::Matrix to_lattice_;
-  FT rounding_of_terms_;   // of the largest ones
-  FT rounding_of_samples_; // of magnitude 1
+  FT rounding_of_terms_;   // for terms as large as the largest sample
+  FT rounding_of_samples_; // for samples of magnitude 1
   FT greatest_sample_;
   bool is_local_;
   std::array<internal::Per_kind_of_cell<Gains>, 3> gains_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stands in for TBB where test/long/thread-sanitizer compiles: the sanitizer does not see how a TBB that was compiled
-// without it hands work to its threads, and would report every use of data from before as a race. Here threads begin
-// and end with the call, which the sanitizer understands, nothing else orders what they do, and each has its share of
-// the work however busy the machine is, the calling one, too. The first exception is thrown when all have ended.
+// Replaces TBB in test/long/thread-sanitizer. The sanitizer does not see the synchronization of a TBB that was compiled
+// without it, and would report false races. Here threads start and end with each call, which the sanitizer understands,
+// and are not synchronized otherwise. Each thread, including the caller, gets a fixed part of the work. The first
+// exception is rethrown after all threads have ended.
 #ifndef EQUIAFFINE_TEST_SUPPORT_TBB_PARALLEL_FOR_H
 #define EQUIAFFINE_TEST_SUPPORT_TBB_PARALLEL_FOR_H
 
